@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from relguide_server.app import create_app
-from relguide_server.settings import Settings
+from relguide_server.settings import ServiceSettings
 
 from relguide import plan
 from relguide.__main__ import main
@@ -31,7 +31,7 @@ SERVICE, COMMANDS, FLIGHT, NETWORK, ERRATA, MAP = (
 def run_with_service(code: str) -> list[str]:
     """The lines that a program of a page prints, with a service to ask."""
     printed = io.StringIO()
-    with serve(create_app(Settings(workers=0))) as address, redirect_stdout(printed):
+    with serve(create_app(ServiceSettings(workers=0))) as address, redirect_stdout(printed):
         exec(compile(code.replace("127.0.0.1:8000", address), "service.md", "exec"), {})
     return printed.getvalue().splitlines()
 

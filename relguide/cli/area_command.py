@@ -11,7 +11,7 @@ from relguide.cli.shared_options import add_tree, tree_parameters
 
 if TYPE_CHECKING:
     from relguide.figures.area_figure import Column
-    from relguide.learn.tree.tree import Tree, TreeParameters
+    from relguide.learn.tree.tree import RegularTree, TreeParameters
 
 PURPOSE = "draw the convergence area, from a tree and exactly"
 EXAMPLES = """
@@ -82,7 +82,7 @@ def _number(heading: float, parameters: "TreeParameters") -> int:
     return round(number) % parameters.headings
 
 
-def column_of(tree: "Tree", number: int) -> "Column":
+def column_of(tree: "RegularTree", number: int) -> "Column":
     """The tree's area for one heading, the exact one, and what the tree's path of each cell loses.
 
     Args:

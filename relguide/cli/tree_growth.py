@@ -10,7 +10,7 @@ from relguide.learn.tree.reverse_dp import Growth, grow_order, plant, reverse_tr
 from relguide.learn.tree.tree import (
     LEAST_HORIZON,
     Losses,
-    Tree,
+    RegularTree,
     TreeParameters,
     losses,
     parameters_as_json,
@@ -23,7 +23,7 @@ SAVE_EVERY = 5.0
 """Between two savings of a tree still growing [s]: what a stop may cost."""
 
 
-def grow_tree(parameters: TreeParameters) -> Tree:
+def grow_tree(parameters: TreeParameters) -> RegularTree:
     """Grow a tree from its root; it is not saved on the way."""
     return tree_from(grow_on(plant(parameters)), {})
 
@@ -77,7 +77,7 @@ def load_kernels(parameters: TreeParameters) -> None:
     )
 
 
-def compare_states(tree: Tree, states: int, *, threads: int | None) -> Losses | None:
+def compare_states(tree: RegularTree, states: int, *, threads: int | None) -> Losses | None:
     """Compare a fixed choice of a tree's states with exact plans; `None` if there are none.
 
     Args:

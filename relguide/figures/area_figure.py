@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from relguide.learn.tree.tree import Tree, TreeParameters
+from relguide.learn.tree.tree import RegularTree, TreeParameters
 from relguide.maps.area import Area
 from relguide.planning.extras import need
 from relguide.planning.phrases import whole_degrees
@@ -55,7 +55,7 @@ def check_figure(file: Path) -> None:
     need("matplotlib")
 
 
-def draw_areas(columns: Sequence[Column], tree: Tree, file: Path) -> None:
+def draw_areas(columns: Sequence[Column], tree: RegularTree, file: Path) -> None:
     """Draw the convergence area and write it.
 
     Args:
@@ -106,7 +106,7 @@ def draw_areas(columns: Sequence[Column], tree: Tree, file: Path) -> None:
         figure.savefig(file, dpi=160, metadata=metadata)
 
 
-def _subtitle(tree: Tree) -> str:
+def _subtitle(tree: RegularTree) -> str:
     parameters, encounter = tree.parameters, tree.parameters.encounter
     return (
         f"V_P {encounter.pursuer_tas:g} m/s at {encounter.max_bank / DEG:g}° of bank, V_L "

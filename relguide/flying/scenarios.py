@@ -149,8 +149,8 @@ def scenario(name: str) -> Scenario:
 def no_scenario(name: str, known: Collection[str]) -> str:
     """What is wrong with a name that no scenario has, and which it may be meant for."""
     meant = get_close_matches(name, known, n=1, cutoff=0.8)
-    asked = f": did you mean {meant[0]}?" if meant else "."
-    return f"There is no scenario {name!r}{asked} There are {', '.join(known)}."
+    asked = f" (did you mean {meant[0]}?)" if meant else ""
+    return f"There is no scenario {name!r}{asked}; there are {', '.join(known)}."
 
 
 def own_scenario(situation: Situation, *, intent_known: bool = True) -> Scenario:

@@ -38,8 +38,7 @@ class _Compiled(Listener):
         now = monotonic()
         seconds = now - self._started.pop()
         self._started = [start + seconds for start in self._started]
-        file = event.data["dispatcher"].py_func.__code__.co_filename
-        if file.startswith(str(cache.HERE)):
+        if event.data["dispatcher"]._cache.cache_path == str(cache.folder()):
             self._done(seconds)
 
 

@@ -228,13 +228,13 @@ LIMITED = (
 opens.
 """
 STEPS = {
-    "flying": Step("flights and plans without the limit", 100, _compile_flying),
-    "limited": Step("the limited search", 100, _compile_limited, after=("flying",)),
-    "areas": Step("areas", 100, _compile_areas, after=("flying",), packages=("contourpy",)),
-    "proofs": Step("proofs of optimality", 100, _compile_proofs, after=("limited",)),
-    "bulk": Step("plans in bulk", 100, _compile_bulk, after=("limited",), packages=("contourpy",)),
-    "networks": Step("networks", 100, _compile_networks, after=("limited",)),
-    "tree": Step("the tree", 100, _compile_tree, after=("flying",)),
-    "learning": Step("learning", 100, _compile_learning, after=("networks",), packages=("torch",)),
+    "flying": Step("flights and plans without the limit", 104, _compile_flying),
+    "limited": Step("the limited search", 227, _compile_limited, after=("flying",)),
+    "areas": Step("areas", 19, _compile_areas, after=("flying",), packages=("contourpy",)),
+    "proofs": Step("proofs of optimality", 222, _compile_proofs, after=("limited",)),
+    "bulk": Step("plans in bulk", 5, _compile_bulk, after=("limited",), packages=("contourpy",)),
+    "networks": Step("networks", 64, _compile_networks, after=("limited",)),
+    "tree": Step("the tree", 9, _compile_tree, after=("flying",)),
+    "learning": Step("learning", 25, _compile_learning, after=("networks",), packages=("torch",)),
 }
 """All of them, by name."""

@@ -272,7 +272,7 @@ NOWHERE = """
 import sys
 from pathlib import Path
 from relguide.kernels import cache, compiling
-cache._can_write = lambda place: False
+cache._can_write = cache.is_full = lambda place: False
 cache.folder.cache_clear()
 compiling.first_use._count(5.0)
 print(cache.folder())
@@ -287,7 +287,7 @@ def test_where_nothing_can_be_kept_it_says_so_with_the_cure_and_cleans_up() -> N
     assert "NUMBA_CACHE_DIR" in done.stderr
     assert not Path(done.stdout.strip()).exists()
     with_child = _run("-c", NOWHERE + "import subprocess\nsubprocess.run([sys.executable, '-c', "
-        "'from relguide.kernels import cache; cache._can_write = lambda place: False; "
+        "'from relguide.kernels import cache; cache._can_write = cache.is_full = lambda place: False; "
         "cache.folder.cache_clear(); print(cache.folder())'])")  # fmt: skip
     assert len({*with_child.stdout.split()}) == 1
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from relguide.kernels.tree.point_grid import IntArray, PointGrid, nearest_points, point_grid
-from relguide.learn.tree.tree import Floats, Ints, Tree, pairs_of, regular_from_pairs
+from relguide.learn.tree.tree import Floats, Ints, RegularTree, pairs_of, regular_from_pairs
 from relguide.planning.regular import RegularTrajectory
 from relguide.planning.situation import Situation
 from relguide.units import Metre, Radian
@@ -22,7 +22,7 @@ from relguide.units import Metre, Radian
 class Lookup:
     """A tree made ready to be asked."""
 
-    tree: Tree
+    tree: RegularTree
     minima: Ints
     """The nodes that are the least of their cell."""
     grid: PointGrid
@@ -40,7 +40,7 @@ class Neighbours:
     """How far it is in the measure of the module's docstring [R]."""
 
 
-def lookup_in(tree: Tree) -> Lookup:
+def lookup_in(tree: RegularTree) -> Lookup:
     """Make a tree ready to be asked: a second for a million cells."""
     minima = tree.minima
     if len(minima) == 0:
@@ -91,6 +91,8 @@ def _nearest(lookup: Lookup, x: Floats, y: Floats, heading: Floats) -> tuple[Flo
     return distances, numbers
 
 
-def _points(tree: Tree, x: Metre | Floats, y: Metre | Floats, heading: Radian | Floats) -> Floats:
+def _points(
+    tree: RegularTree, x: Metre | Floats, y: Metre | Floats, heading: Radian | Floats
+) -> Floats:
     radius = tree.parameters.encounter.turn_radius
     return np.column_stack((x / radius, y / radius, np.cos(heading), np.sin(heading)))

@@ -23,7 +23,7 @@ import numpy as np
 
 from relguide.kernels.base.records import straight_scene
 from relguide.kernels.tree.reverse import Cells, Mesh, Nodes, compass, expand, settle
-from relguide.learn.tree.tree import Floats, Ints, Tree, TreeParameters
+from relguide.learn.tree.tree import Floats, Ints, RegularTree, TreeParameters
 
 BLOCK = 2048
 """Parents expanded between two reports: a tenth of a second or so."""
@@ -46,9 +46,9 @@ class Growth:
     next: int
     """How many of `latest` have been expanded."""
     laid: int
-    """As in `Tree`."""
+    """As in `RegularTree`."""
     close: int
-    """As in `Tree`."""
+    """As in `RegularTree`."""
     states: Floats
     """x, y, time of every node [R, R/V_P]. shape (n, 3)"""
     headings: Ints
@@ -179,7 +179,7 @@ def _settle(growth: Growth, nodes: Nodes) -> Growth:
     )
 
 
-def tree_from(growth: Growth, provenance: dict[str, str]) -> Tree:
+def tree_from(growth: Growth, provenance: dict[str, str]) -> RegularTree:
     """The tree as others use it, in SI.
 
     Args:
@@ -188,7 +188,7 @@ def tree_from(growth: Growth, provenance: dict[str, str]) -> Tree:
     """
     encounter = growth.parameters.encounter
     radius = encounter.turn_radius
-    return Tree(
+    return RegularTree(
         parameters=growth.parameters,
         laid=growth.laid,
         close=growth.close,
@@ -206,7 +206,7 @@ def tree_from(growth: Growth, provenance: dict[str, str]) -> Tree:
     )
 
 
-def reverse_tree(parameters: TreeParameters, *, threads: int | None = None) -> Tree:
+def reverse_tree(parameters: TreeParameters, *, threads: int | None = None) -> RegularTree:
     """Grow a tree at one go, for programs; the command shows its progress and may be resumed."""
     growth = plant(parameters)
     while not growth.finished:

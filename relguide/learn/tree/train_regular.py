@@ -15,7 +15,7 @@ from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, solve
 from relguide.learn.training.fitting import Scaled, arrays_of, begin, origin_of, scale, split
 from relguide.learn.training.options import TrainingOptions
 from relguide.learn.tree.regular_network import INPUTS, Method, RegularNetwork, Singles, inputs_of
-from relguide.learn.tree.tree import Floats, Tree, TreeParameters, pairs_of
+from relguide.learn.tree.tree import Floats, RegularTree, TreeParameters, pairs_of
 
 if TYPE_CHECKING:
     import torch
@@ -33,7 +33,7 @@ class RegularEpoch:
 
 
 def train_regular(
-    tree: Tree, options: TrainingOptions, *, method: Method, about: Mapping[str, Any]
+    tree: RegularTree, options: TrainingOptions, *, method: Method, about: Mapping[str, Any]
 ) -> Iterator[RegularEpoch]:
     """Train on the states of a tree; yields after every epoch, the last is the end.
 

@@ -113,7 +113,7 @@ class TreeParameters:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Tree:
+class RegularTree:
     """A grown tree: its nodes as columns, the root first and parents before children."""
 
     parameters: TreeParameters
@@ -160,7 +160,7 @@ class Tree:
         return minima
 
 
-def pairs_of(tree: Tree, nodes: Ints) -> Floats:
+def pairs_of(tree: RegularTree, nodes: Ints) -> Floats:
     """The parameters of the paths to the slot: (ε, θ [rad], l [m]) of each pair, forward.
 
     Returns:
@@ -180,7 +180,7 @@ def pairs_of(tree: Tree, nodes: Ints) -> Floats:
     return pairs
 
 
-def regular_of(tree: Tree, node: int) -> RegularTrajectory:
+def regular_of(tree: RegularTree, node: int) -> RegularTrajectory:
     """The path from a node to the slot in the paper's form."""
     return regular_from_pairs(pairs_of(tree, np.array([node], np.int32))[0])
 
@@ -204,14 +204,14 @@ def regular_from_pairs(pairs: Floats, *, mirrored: bool = False) -> RegularTraje
     return RegularTrajectory(triplets=tuple(reversed(forward)))
 
 
-def situation_of(tree: Tree, node: int) -> Situation:
+def situation_of(tree: RegularTree, node: int) -> Situation:
     """The exact situation a node is the answer to."""
     return tree.parameters.encounter.situation(
         float(tree.x[node]), float(tree.y[node]), float(tree.heading[node])
     )
 
 
-def nodes_at(tree: Tree, heading_number: int) -> Ints:
+def nodes_at(tree: RegularTree, heading_number: int) -> Ints:
     """The best node of each cell on one heading, both sides; −1 where there is none.
 
     Right of the route it is the node whose mirror image begins there. shape (cells_x, 2 cells_y)
@@ -221,7 +221,7 @@ def nodes_at(tree: Tree, heading_number: int) -> Ints:
     return np.concatenate((right[:, ::-1], left), axis=1)
 
 
-def tree_area(tree: Tree, heading_number: int) -> Area:
+def tree_area(tree: RegularTree, heading_number: int) -> Area:
     """The convergence area as the tree has it, for one of its headings, on both sides."""
     parameters = tree.parameters
     time = np.append(tree.time, np.inf)  # what has no node, −1, is the last
@@ -250,7 +250,7 @@ class Losses:
         return float(np.mean(self.loss <= loss))
 
 
-def losses(tree: Tree, nodes: Ints, exact: Floats) -> Losses:
+def losses(tree: RegularTree, nodes: Ints, exact: Floats) -> Losses:
     """Compare nodes with the exact plans from their very states.
 
     Args:

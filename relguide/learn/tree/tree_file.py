@@ -6,7 +6,7 @@ import numpy as np
 
 from relguide.learn.training.files import load_columns, save_columns
 from relguide.learn.tree.reverse_dp import CELL_COLUMNS, Growth
-from relguide.learn.tree.tree import Tree, parameters_as_json, parameters_from_json
+from relguide.learn.tree.tree import RegularTree, parameters_as_json, parameters_from_json
 
 TREE, GROWTH = "relguide reverse-dp tree 1", "relguide reverse-dp growth 1"
 """What a file says it is, with the version of its columns."""
@@ -29,7 +29,7 @@ GROWTH_COLUMNS = ("states", "headings", "parents", "pairs", "latest", *CELL_COLU
 """Fields of a growing tree that are arrays."""
 
 
-def save_tree(tree: Tree, file: Path) -> None:
+def save_tree(tree: RegularTree, file: Path) -> None:
     """Write a tree.
 
     Columns: x_m, y_m, heading_number (in Δθ), time_s of each node, the parent and the pair it
@@ -46,14 +46,14 @@ def save_tree(tree: Tree, file: Path) -> None:
     save_columns(file, about, columns)
 
 
-def load_tree(file: Path) -> Tree:
+def load_tree(file: Path) -> RegularTree:
     """Read a tree.
 
     Raises:
         ValueError: if the file is not one.
     """
     about, columns = load_columns(file, TREE, tuple(TREE_COLUMNS), NONE)
-    tree = Tree(
+    tree = RegularTree(
         parameters=parameters_from_json(about["parameters"]),
         laid=int(about["laid"]),
         close=int(about["close"]),

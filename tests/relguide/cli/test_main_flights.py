@@ -223,7 +223,7 @@ def test_a_rate_without_whole_steps_or_a_recording_is_misuse(
 def test_a_mistyped_scenario_is_guessed_and_all_are_listed(run: Run, name: str, said: str) -> None:
     code, out, err = run("fly", name)
     assert (code, out) == (2, "")
-    assert f"did you mean {said}? There are fig_6a, fig_6b, recorded_leader, random." in err
+    assert f"(did you mean {said}?); there are fig_6a, fig_6b, recorded_leader, random." in err
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ import pytest
 from relguide.kernels import cache
 
 INNER = """
+from typing import NamedTuple
 import numpy as np
 from numba import njit
 from relguide.kernels.toys.least import least
@@ -25,6 +26,14 @@ def ranked(values):
 @njit(cache=True, nogil=True, forceinline=True)
 def doubled(value):
     return 2.0 * value
+
+class Pair(NamedTuple):
+    n: int
+    values: object
+
+@njit(cache=True, nogil=True)
+def first(pair):
+    return Pair(pair.n + 1, pair.values)
 
 @njit(cache=True, nogil=True)
 def factorial(n):
@@ -42,12 +51,30 @@ def least(values):
 """
 OUTER = """
 from numba import njit
-from relguide.kernels.toys.inner import doubled, factorial, ranked
+from relguide.kernels.toys.inner import Pair, doubled, factorial, first, ranked
 
 @njit(cache=True, nogil=True)
 def outer(values):
     order, smallest = ranked(values)
-    return order[0], doubled(smallest), factorial(5)
+    return order[0], doubled(smallest), factorial(first(Pair(4, values)).n)
+"""
+FIRST = """
+from typing import NamedTuple
+
+class Pair(NamedTuple):
+    first: float
+    second: float
+
+@njit(cache=True, nogil=True)
+def first_of(pair):
+    return pair.first
+"""
+GIVEN = """
+from relguide.kernels.toys.inner import Pair
+
+@njit(cache=True, nogil=True)
+def given():
+    return first_of(Pair(3.0, 4.0))
 """
 CALL = """
 import numpy as np
@@ -104,7 +131,7 @@ def index_of(toys: Path, kernel: str) -> Path:
     return index
 
 
-EVERY = ["doubled", "factorial", "least", "outer", "ranked"]
+EVERY = ["doubled", "factorial", "first", "least", "outer", "ranked"]
 
 
 @pytest.mark.slow
@@ -129,7 +156,7 @@ def test_what_changes_in_a_callee_changes_the_answer(toys: Path) -> None:
     compiled(toys)
     inner = toys / "relguide/kernels/toys/inner.py"
     inner.write_text(INNER.replace("2.0 * value", "4.0 * value"))
-    assert compiled(toys) == ("(1, 4.0, 120)", ["doubled", "factorial", "outer", "ranked"])
+    assert compiled(toys) == ("(1, 4.0, 120)", ["doubled", "factorial", "first", "outer", "ranked"])
 
 
 @pytest.mark.slow
@@ -157,9 +184,27 @@ def test_python_calls_an_inner_kernel_after_compiled_code_has(toys: Path) -> Non
 @pytest.mark.slow
 def test_python_calls_what_was_read_from_disk_for_a_kernel_alone(toys: Path) -> None:
     compiled(toys)
-    ranked = CALL.replace("print", "called =") + "print(ranked(np.array([2.0, 1.0])))"
+    inner = (
+        "import numpy as np\n"
+        "from relguide.kernels.toys.inner import Pair, first\n"
+        "print(first(Pair(4, np.array([2.0, 1.0]))))"
+    )
     for _ in range(2):
-        assert compiled(toys, ranked) == ("(array([1, 0]), 1.0)", [])
+        assert compiled(toys, inner) == ("Pair(n=5, values=array([2., 1.]))", [])
+
+
+@pytest.mark.slow
+def test_python_hands_a_tuple_to_what_was_read_from_disk_for_a_kernel_alone(toys: Path) -> None:
+    """What takes the tuple apart is compiled in a process that has compiled nothing before."""
+    inner, outer = toys / "relguide/kernels/toys/inner.py", toys / "relguide/kernels/toys/outer.py"
+    with inner.open("a") as file:
+        file.write(FIRST)
+    outer.write_text(OUTER.replace("ranked\n", "first_of, ranked\n", 1) + GIVEN)
+    compiled(toys, "from relguide.kernels.toys.outer import given\nprint(given())")
+    alone = (
+        "from relguide.kernels.toys.inner import Pair, first_of\nprint(first_of(Pair(1.0, 2.0)))"
+    )
+    assert compiled(toys, alone) == ("1.0", [])
 
 
 @pytest.mark.slow

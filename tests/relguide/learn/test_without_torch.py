@@ -27,10 +27,10 @@ SERVED = (
 import json
 from starlette.testclient import TestClient
 from relguide_server.app import create_app
-from relguide_server.settings import Settings
+from relguide_server.settings import ServiceSettings
 
 body = json.load(open(sys.argv[1]))
-app = create_app(Settings(planner="network", workers=0))
+app = create_app(ServiceSettings(planner="network", workers=0))
 with TestClient(app, base_url="http://localhost") as client:
     print(client.post("/api/v1/plans", json=body).json()["planner"])
     small = {"columns": "32", "rows": "24", "planner": "network", "situation": json.dumps(body)}

@@ -307,14 +307,8 @@ def test_a_contact_with_no_other_one_after_it_is_known_to_be_the_only_one() -> N
 
 @pytest.mark.parametrize(
     ("seed", "case"),
-    [(221, 22), (234, 112), (233, 80), (255, 394), (260, 122)],
-    ids=[
-        "words through the disc",
-        "hops to the final leg",
-        "the time round",
-        "a fall",
-        "a long fall",
-    ],
+    [(221, 22), (233, 80)],
+    ids=["words through the disc", "the time round"],
 )
 def test_where_nobody_can_slide_the_bound_comes_to_the_plan(seed: int, case: int) -> None:
     """Their gaps stood still at 0.13 s to 0.66 s."""

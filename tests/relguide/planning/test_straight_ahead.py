@@ -67,7 +67,7 @@ def test_what_is_never_reached_or_too_late_is_for_others(leader_tas: float) -> N
     assert first_candidate(situation, situation.pursuer.turn_radius) is None
 
 
-@pytest.mark.parametrize("turns", [-3, -1, 1, 7])
+@pytest.mark.parametrize("turns", [-2, -1, 1, 2])
 def test_headings_past_a_whole_turn_are_the_same(turns: int) -> None:
     usual, wound = behind(leader_tas=180.0), behind(leader_tas=180.0, heading=turns * 2.0 * pi)
     radius = usual.pursuer.turn_radius

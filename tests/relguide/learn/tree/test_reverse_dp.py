@@ -13,7 +13,7 @@ from relguide.kernels.tree.reverse import compass
 from relguide.learn.tree import reverse_dp
 from relguide.learn.tree.reverse_dp import Growth, grow_order, plant, reverse_tree, tree_from
 from relguide.learn.tree.tree import (
-    Tree,
+    RegularTree,
     TreeParameters,
     losses,
     nodes_at,
@@ -33,14 +33,14 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def same(one: Tree, other: Tree) -> bool:
+def same(one: RegularTree, other: RegularTree) -> bool:
     counts = one.laid == other.laid and one.close == other.close
     return counts and all(
         np.array_equal(getattr(one, name), getattr(other, name)) for name in COLUMNS
     )
 
 
-def grow(growth: Growth, *, threads: int | None = None) -> Tree:
+def grow(growth: Growth, *, threads: int | None = None) -> RegularTree:
     while not growth.finished:
         *_, growth = grow_order(growth, threads=threads)
     return tree_from(growth, {})

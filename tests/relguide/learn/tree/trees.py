@@ -3,7 +3,7 @@
 from functools import cache
 
 from relguide.learn.tree.reverse_dp import reverse_tree
-from relguide.learn.tree.tree import Tree, TreeParameters
+from relguide.learn.tree.tree import RegularTree, TreeParameters
 from relguide.maps.area import Encounter
 from relguide.units import DEG
 
@@ -34,5 +34,5 @@ def parameters(
 
 
 @cache
-def tree(order: int = 3) -> Tree:
+def tree(order: int = 3) -> RegularTree:
     return reverse_tree(parameters(order))
