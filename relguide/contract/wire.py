@@ -238,7 +238,9 @@ def _conversion(name: str, annotation: Any, unit: str) -> tuple[Convert, Convert
         return annotation, _keep  # also turns numpy's scalars into Python's
     if get_origin(annotation) is tuple:
         return _encode_all, _keep
-    if is_dataclass(annotation) or get_origin(annotation) in (UnionType, Union):
+    if is_dataclass(annotation):
+        return _encoder(annotation), _keep  # type: ignore[arg-type]
+    if get_origin(annotation) in (UnionType, Union):
         return to_wire, _keep
     if get_origin(annotation) is Literal or issubclass(annotation, Enum):
         return str, _keep
