@@ -259,7 +259,6 @@ def _make_wrapper(kernel: Any, result: Any) -> Any:
     library.enable_object_caching()
     result.target_context.refresh()  # what was read from disk needed nothing to compile with
     options = kernel.targetoptions
-    result.target_context.refresh()  # a process that only read kernels knows of no conversions
     # numba's context for what is read from disk counts no references to arrays
     context = result.target_context.subtarget(enable_nrt=options.get("_nrt", True))
     context.create_cpython_wrapper(

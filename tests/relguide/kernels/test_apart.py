@@ -58,24 +58,6 @@ def outer(values):
     order, smallest = ranked(values)
     return order[0], doubled(smallest), factorial(first(Pair(4, values)).n)
 """
-FIRST = """
-from typing import NamedTuple
-
-class Pair(NamedTuple):
-    first: float
-    second: float
-
-@njit(cache=True, nogil=True)
-def first_of(pair):
-    return pair.first
-"""
-GIVEN = """
-from relguide.kernels.toys.inner import Pair
-
-@njit(cache=True, nogil=True)
-def given():
-    return first_of(Pair(3.0, 4.0))
-"""
 CALL = """
 import numpy as np
 from relguide.kernels.toys.outer import outer
@@ -191,20 +173,6 @@ def test_python_calls_what_was_read_from_disk_for_a_kernel_alone(toys: Path) -> 
     )
     for _ in range(2):
         assert compiled(toys, inner) == ("Pair(n=5, values=array([2., 1.]))", [])
-
-
-@pytest.mark.slow
-def test_python_hands_a_tuple_to_what_was_read_from_disk_for_a_kernel_alone(toys: Path) -> None:
-    """What takes the tuple apart is compiled in a process that has compiled nothing before."""
-    inner, outer = toys / "relguide/kernels/toys/inner.py", toys / "relguide/kernels/toys/outer.py"
-    with inner.open("a") as file:
-        file.write(FIRST)
-    outer.write_text(OUTER.replace("ranked\n", "first_of, ranked\n", 1) + GIVEN)
-    compiled(toys, "from relguide.kernels.toys.outer import given\nprint(given())")
-    alone = (
-        "from relguide.kernels.toys.inner import Pair, first_of\nprint(first_of(Pair(1.0, 2.0)))"
-    )
-    assert compiled(toys, alone) == ("1.0", [])
 
 
 @pytest.mark.slow
