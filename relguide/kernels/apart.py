@@ -258,7 +258,6 @@ def _make_wrapper(kernel: Any, result: Any) -> Any:
     library = result.codegen.create_library(f"{result.fndesc.qualname} for Python")
     library.enable_object_caching()
     options = kernel.targetoptions
-    result.target_context.refresh()  # a process that only read kernels knows of no conversions
     # numba's context for what is read from disk counts no references to arrays
     context = result.target_context.subtarget(enable_nrt=options.get("_nrt", True))
     context.create_cpython_wrapper(
