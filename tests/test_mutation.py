@@ -72,10 +72,10 @@ def test_a_larger_sample_goes_on_from_a_smaller_one_and_no_file_is_left_out() ->
 
 
 def test_a_file_is_judged_by_its_own_tests_those_of_its_users_and_the_golden_answers() -> None:
-    names = [test.name for test in judges_of(ROOT, KERNELS / "bounds/contact_bound.py")]
+    names = [test.name for test in judges_of(ROOT, KERNELS / "bounds/words/contact_bound.py")]
     assert names[0] == "test_contact_bound.py"
     assert names[-1] == "test_golden.py"
-    assert "test_joined.py" in names
+    assert "test_untouched.py" in names
 
 
 @pytest.mark.slow

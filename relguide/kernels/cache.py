@@ -60,7 +60,7 @@ ADOPTED = "adopted"
 """The record of what has been taken over from a wheel."""
 EVERYTHING = "everything"
 """The record of a folder that holds all kernels."""
-SHARED = "RELGUIDE_TEMPORARY_KERNELS"
+SHARED = "_RELGUIDE_TEMPORARY_KERNELS"
 """The variable that names the temporary folder to the processes that this one starts."""
 ANY_CPU = ["generic", ""]
 """What numba calls a CPU with no more than all of its kind have: its name and features."""

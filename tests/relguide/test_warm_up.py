@@ -370,6 +370,8 @@ def test_whatever_a_kernel_imports_of_ours_is_seen() -> None:
 def test_a_folder_that_can_only_be_read_serves_if_it_was_filled(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setenv(cache.SHARED, "")  # so that it is unset again, whatever is set below
+    monkeypatch.delenv(cache.SHARED)
     read_only, empty = tmp_path / "read_only", tmp_path / "empty"
     read_only.mkdir()
     monkeypatch.setattr(cache, "places", lambda: [empty, read_only])
