@@ -49,7 +49,7 @@ SMALL = 100
 KERNEL = "kernel"
 """How a kernel is marked on disk, where numba has "object" and "bitcode"."""
 COLLECT_EVERY = 100_000
-"""Objects made between two collections of garbage while compiling, of which there is hardly any."""
+"""Objects made between two collections of garbage while compiling: it finds little each time."""
 
 
 class StaleCalleeError(Exception):
@@ -282,12 +282,16 @@ def _wrapper_key(kernel: Any, result: Any) -> Any:
 
 @contextmanager
 def _few_collections() -> Iterator[None]:
-    before = gc.get_threshold()
+    """Collect garbage seldom, and where a program never does: compiling makes much of it."""
+    before, enabled = gc.get_threshold(), gc.isenabled()
     gc.set_threshold(COLLECT_EVERY, *before[1:])
+    gc.enable()
     try:
         yield
     finally:
         gc.set_threshold(*before)
+        if not enabled:
+            gc.disable()
 
 
 _library = codegen.CPUCodeLibrary
