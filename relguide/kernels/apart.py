@@ -257,6 +257,7 @@ def _read_wrapper(kernel: Any, result: Any) -> Any:
 def _make_wrapper(kernel: Any, result: Any) -> Any:
     library = result.codegen.create_library(f"{result.fndesc.qualname} for Python")
     library.enable_object_caching()
+    result.target_context.refresh()  # a process that only read kernels knows of no conversions
     options = kernel.targetoptions
     # numba's context for what is read from disk counts no references to arrays
     context = result.target_context.subtarget(enable_nrt=options.get("_nrt", True))
