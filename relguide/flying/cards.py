@@ -35,7 +35,6 @@ from relguide.planning.arrival import Arrival
 from relguide.planning.certificate import Certificate
 from relguide.planning.plan import NoPlan, Plan
 from relguide.planning.situation import Wind
-from relguide.planning.slot import over_ground
 from relguide.planning.trajectory import (
     LEFT,
     Arc,
@@ -174,8 +173,8 @@ def path_point(pose: Pose, t: float, wind: Wind, start_time: float = 0.0) -> Pat
         wind: moves the air mass over the ground.
         start_time: added to t for the reader [s].
     """
-    ground = over_ground(pose, t, wind)
-    return PathPoint(t=start_time + t, x=ground.x, y=ground.y, heading=ground.heading)
+    x, y = pose.x + wind.east * t, pose.y + wind.north * t
+    return PathPoint(t=start_time + t, x=x, y=y, heading=pose.heading)
 
 
 def path_segments(
@@ -194,15 +193,12 @@ def path_segments(
     if horizon is not None and horizon > trajectory.duration:
         rest = Straight(length=(horizon - trajectory.duration) * trajectory.tas)
         flown = replace(trajectory, segments=(*trajectory.segments, rest))
-    points: list[PathPoint] = []
-    t = 0.0
-    for pose, duration in zip(flown.breakpoints(), (*flown.durations(), 0.0), strict=True):
-        points.append(path_point(pose, t, wind, start_time))
-        t += duration
     segments: list[PathSegment] = []
-    t = 0.0
-    for piece, start, end in zip(flown.segments, points[:-1], points[1:], strict=True):
+    first, *others = flown.breakpoints()
+    start, t = path_point(first, 0.0, wind, start_time), 0.0
+    for piece, pose in zip(flown.segments, others, strict=True):
         duration = piece.length / flown.tas
+        end = path_point(pose, t + duration, wind, start_time)
         match piece:
             case Arc():
                 segments.append(
@@ -232,7 +228,7 @@ def path_segments(
                 )
             case _:
                 assert_never(piece)
-        t += duration
+        start, t = end, t + duration
     return tuple(segments)
 
 

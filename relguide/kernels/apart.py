@@ -234,14 +234,15 @@ def _compile(self: Any, signature: Any) -> Any:
 
 
 def _entry_for_python(kernel: Any, result: Any) -> Any:
-    library = getattr(result.library, "for_python", None)
-    if library is None:
-        library = _read_wrapper(kernel, result) or _make_wrapper(kernel, result)
-        result.library.for_python = library
+    if hasattr(result.library, "for_python"):  # another thread called it first at the same time
+        return result.library.for_python.entry
+    library = _read_wrapper(kernel, result) or _make_wrapper(kernel, result)
     types, context = tuple(result.signature.args), result.target_context
     entry = _get_any_executable(context, library, result.fndesc, result.environment)
-    library.entry = entry  # the table of entries does not keep it alive
+    # numba takes none of two equal entries, and asks for one at every call
     kernel._insert([one._code for one in types], entry, False)
+    library.entry = entry  # the table of entries does not keep it alive
+    result.library.for_python = library
     return entry
 
 

@@ -8,6 +8,7 @@ from importlib.metadata import version
 from typing import Literal
 
 from fastapi import APIRouter, FastAPI, Request
+from fastapi.telemetry import TelemetryConfig
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
 from pydantic import BaseModel, Field
 from starlette.responses import PlainTextResponse, Response
@@ -26,7 +27,7 @@ from relguide_server.http.body_limit import BodyLimit
 from relguide_server.http.errors import install_handlers
 from relguide_server.http.head_requests import HeadAsGet
 from relguide_server.http.metrics import Metrics
-from relguide_server.http.openapi import describe, response, schema_of
+from relguide_server.http.openapi import describe, name_of, response, schema_of
 from relguide_server.http.pages import Page
 from relguide_server.http.proxy import ProxyPath
 from relguide_server.http.request_log import RequestLog
@@ -54,6 +55,8 @@ Every field names its unit. Headings count clockwise from true north. Errors are
 (RFC 9457). A flight is watched by WebSocket at `/api/v1/flights/{id}/stream` (see `/docs/stream`),
 and in 3D at `/scene/{id}/`."""
 
+NO_TELEMETRY: TelemetryConfig = {"tracing": False, "metrics": False, "logs": False}
+"""The framework's own, which looks for exporters at each request: `Metrics` counts here."""
 IN_FLIGHT = 2.0
 """How long a flight may plan at a time [s]: it waits meanwhile, and the service cannot stop it."""
 router = APIRouter(tags=["service"])
@@ -125,9 +128,10 @@ def create_app(
         summary="Minimum-time relative guidance of aircraft",
         description=DESCRIPTION,
         lifespan=lifespan,
-        generate_unique_id_function=lambda route: route.name,
+        generate_unique_id_function=name_of,
         docs_url=None,
         redoc_url=None,
+        telemetry=NO_TELEMETRY,
     )
     app.state.workers, app.state.bodies = workers, Bodies()
     app.state.plan_service = PlanService(
@@ -136,8 +140,8 @@ def create_app(
     app.state.settings, app.state.catalogue = settings, catalogue
     app.state.records = records
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
+    app.router.routes.extend(plans.router.routes)  # most requests are for these
     for part in (
-        plans.router,  # most requests are for these
         router,
         areas.router,
         routes.router,

@@ -21,7 +21,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from relguide_server.http.errors import Refusal, problem
-from relguide_server.http.proxy import path_of, root_of
+from relguide_server.http.proxy import header_of, path_of, root_of
 
 Role = Literal["view", "fly", "control"]
 """`view`: read, plan and watch; `fly`: start flights, and command and end one's own; `control`: all
@@ -53,9 +53,18 @@ class HostNames:
     def __init__(self, hosts: Sequence[str]) -> None:
         """Take those of the settings; addresses and `localhost` are always among them."""
         self._hosts = frozenset(name.lower() for name in hosts)
+        self._last = "localhost"
+        """The last `Host` that was one of them: most requests name the same."""
 
     def include(self, host: str) -> bool:
         """Whether a `Host` is one of them."""
+        if host != self._last:
+            if not self._looked_up(host):
+                return False
+            self._last = host
+        return True
+
+    def _looked_up(self, host: str) -> bool:
         name = _name(host)
         if name == "localhost" or name.endswith(".localhost") or "*" in self._hosts:
             return True
@@ -78,7 +87,7 @@ class Access:
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
-        answer = self._judge(scope, Headers(scope=scope))
+        answer = self._judge(scope)
         if answer is None:
             await self.app(scope, receive, send)
         elif scope["type"] == "http":
@@ -90,18 +99,18 @@ class Access:
             await receive()
             await send({"type": "websocket.close", "code": 1008, "reason": ""})
 
-    def _judge(self, scope: Scope, headers: Headers) -> Response | None:
+    def _judge(self, scope: Scope) -> Response | None:
         """The answer that refuses; `None` for what may pass."""
-        path, host = path_of(scope), headers.get("host", "")
+        host = header_of(scope, b"host") or ""
         if not self.names.include(host):
             return _refuse(scope, 421, UNKNOWN_HOST.format(name=_name(host)[:100]))
-        origin = headers.get("origin")
+        origin = header_of(scope, b"origin")
         changes = scope["type"] == "websocket" or scope["method"] not in SAFE
         if changes and origin is not None and not self._is_own_page(origin, host):
             return _refuse(scope, 403, FOREIGN.format(origin=origin[:100]), kind="foreign-page")
-        if not self.tokens or path in OPEN:
+        if not self.tokens or path_of(scope) in OPEN:
             return None
-        return self._judge_token(scope, headers)
+        return self._judge_token(scope, Headers(scope=scope))
 
     def _is_own_page(self, origin: str, host: str) -> bool:
         try:

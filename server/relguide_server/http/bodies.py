@@ -14,6 +14,7 @@ from starlette.responses import Response
 
 from relguide.contract.refusal import ContractError, loads
 from relguide_server.http.errors import Refusal, refusal_of
+from relguide_server.http.proxy import header_of
 
 T = TypeVar("T")
 SMALL = 16 * 1024
@@ -57,9 +58,10 @@ async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
     # A page of another site can send most other types without the browser's permission.
     if content_type(request) not in types:
         raise Refusal(415, f"The body must be sent with Content-Type: {' or '.join(types)}.")
-    if request.headers.get("content-encoding", "identity").strip().lower() != "identity":
+    packed = header_of(request.scope, b"content-encoding")
+    if packed is not None and packed.strip().lower() != "identity":
         raise Refusal(415, PACKED)
-    declared = request.headers.get("content-length", "0")
+    declared = header_of(request.scope, b"content-length") or "0"
     if declared.isdecimal() and int(declared) > most:
         raise _too_long(most)
     parts, size, more = [], 0, True
@@ -135,7 +137,8 @@ def address_of(request: Request) -> str:
 
 def content_type(request: Request) -> str:
     """The declared type of a body, without parameters."""
-    return request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    declared = header_of(request.scope, b"content-type") or ""
+    return declared.partition(";")[0].strip().lower()
 
 
 def parse_json(body: bytes) -> object:

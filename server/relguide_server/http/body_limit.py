@@ -1,9 +1,9 @@
 """A limit on the body of every request."""
 
-from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from relguide_server.http.errors import Refusal, problem
+from relguide_server.http.proxy import header_of
 
 
 class BodyLimit:
@@ -19,7 +19,7 @@ class BodyLimit:
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
-        declared = Headers(scope=scope).get("content-length", "0")
+        declared = header_of(scope, b"content-length") or "0"
         if declared.isdecimal() and int(declared) > self.max_body:
             answer = problem(
                 scope["path"],

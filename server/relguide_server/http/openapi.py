@@ -13,7 +13,7 @@ from typing import Any
 import orjson
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
-from fastapi.routing import iter_route_contexts
+from fastapi.routing import APIRoute, iter_route_contexts
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
@@ -119,6 +119,11 @@ def problem_responses(*kinds: str) -> dict[int | str, dict[str, Any]]:
 
 def _no_problem() -> dict[str, Any]:
     return {"content": {PROBLEM_JSON: {"schema": schema_of(Problem), "examples": {}}}}
+
+
+def name_of(route: APIRoute) -> str:
+    """The name of an operation: that of the function."""
+    return route.name
 
 
 def describe(app: FastAPI) -> None:

@@ -8,7 +8,6 @@ is the path below it (`path_of`), as ASGI's `root_path` and `path` say.
 from collections.abc import Callable
 from ipaddress import IPv4Network, IPv6Network, ip_address, ip_network
 
-from starlette.datastructures import Headers
 from starlette.responses import RedirectResponse
 from starlette.types import ASGIApp, Receive, Scope, Send
 
@@ -43,7 +42,7 @@ class ProxyPath:
 
     def _said(self, scope: Scope) -> str | None:
         """What a proxy has stripped, if one that is believed says so."""
-        said = Headers(scope=scope).get("x-forwarded-prefix")
+        said = header_of(scope, b"x-forwarded-prefix")
         if said is None or not self.believes((scope.get("client") or ("",))[0]):
             return None
         said = said.rstrip("/")
@@ -75,6 +74,15 @@ def read_networks(text: str) -> list[IPv4Network | IPv6Network]:
         ValueError: if one is neither.
     """
     return [ip_network(part.strip(), strict=False) for part in text.split(",") if part.strip()]
+
+
+def header_of(scope: Scope, name: bytes) -> str | None:
+    """The first header of a name, in small letters; `None` if there is none."""
+    for known, value in scope["headers"]:
+        if known == name:
+            said: str = value.decode("latin-1")
+            return said
+    return None
 
 
 def root_of(scope: Scope) -> str:

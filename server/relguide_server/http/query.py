@@ -9,6 +9,7 @@ from fastapi.routing import APIRoute, APIWebSocketRoute
 from pydantic import BaseModel, ValidationError
 from starlette.requests import HTTPConnection
 from starlette.responses import Response
+from starlette.types import Receive, Scope, Send
 
 from relguide.contract.refusal import refuse_parameters
 from relguide_server.http.errors import Refusal, refusal_of
@@ -18,8 +19,18 @@ class QueryRoute(APIRoute):
     """A route whose endpoint takes the request and one model of its query.
 
     What it depends on takes the request alone. To look up each parameter, and what depends on it,
-    takes the framework longer than most plans.
+    takes the framework longer than most plans. So the framework only describes this route.
     """
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        handle = self.get_route_handler()
+
+        async def answer(scope: Scope, receive: Receive, send: Send) -> None:
+            found = await handle(Request(scope, receive, send))
+            await found(scope, receive, send)
+
+        self.app = answer
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """What answers a request."""

@@ -28,6 +28,7 @@ from relguide_server.http.openapi import (
     BODY,
     WORK,
     list_schema,
+    name_of,
     problem_responses,
     request_body,
     schema_of,
@@ -160,6 +161,7 @@ router = APIRouter(
     tags=["plans"],
     dependencies=[KNOWN_PARAMETERS_ONLY],
     route_class=QueryRoute,
+    generate_unique_id_function=name_of,
 )
 
 
