@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 def open_input(file: str) -> Iterator[IO[bytes]]:
     """Open a file to read; `-` is standard input, which stays open."""
     if file == "-":
+        if sys.stdin is None:
+            raise ValueError("Standard input is closed: name a file, or pipe the situation in.")
         yield sys.stdin.buffer
     else:
         with Path(file).open("rb") as stream:

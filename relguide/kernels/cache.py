@@ -52,8 +52,8 @@ IMPORT = re.compile(
     re.MULTILINE,
 )
 """How our files name what they are made of."""
-FORMAT = b"3"
-"""Of what is kept: kernels kept in another format are compiled anew. Since 3 each is apart."""
+FORMAT = b"4"
+"""Of what is kept: kernels kept in another format are compiled anew. Since 4 each has a digest."""
 RECORD = ".warm"
 """How the name of a record ends."""
 ADOPTED = "adopted"
@@ -64,7 +64,16 @@ SHARED = "_RELGUIDE_TEMPORARY_KERNELS"
 """The variable that names the temporary folder to the processes that this one starts."""
 ANY_CPU = ["generic", ""]
 """What numba calls a CPU with no more than all of its kind have: its name and features."""
-
+UNREADABLE = (
+    ImportError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    TypeError,
+    ValueError,
+    pickle.UnpicklingError,
+)
+"""What comes of reading an index that is damaged, or of another version."""
 
 caching: Any = numba_caching
 serialize: Any = numba_serialize
@@ -126,7 +135,7 @@ class LockedIndex(caching.IndexDataCacheFile):  # type: ignore[misc]
         """
         try:
             return super()._load_index()
-        except (ImportError, AttributeError, EOFError, pickle.UnpicklingError):
+        except UNREADABLE:
             return {}
 
     def _alone(self) -> AbstractContextManager[None]:

@@ -13,6 +13,7 @@ numba for which that is tested are those of `pyproject.toml`.
 
 import pickle
 import sys
+from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -54,13 +55,36 @@ class _Unpickler(pickle.Unpickler):
 
 
 class KernelIndex(LockedIndex):
-    """As `LockedIndex`; of our own kernels no module is imported for what they call."""
+    """As `LockedIndex`; of our own kernels no module is imported for what they call.
+
+    Each file begins with a digest. One that is damaged, as by a power cut, counts as missing.
+    """
+
+    def _save_data(self, name: str, data: Any) -> None:
+        if Path(self._cache_path) != folder():
+            super()._save_data(name, data)
+            return
+        content = self._dump(data)
+        with self._open_for_write(self._data_path(name)) as file:
+            file.write(_digest(name, content) + content)
 
     def _load_data(self, name: str) -> Any:
         place = Path(self._cache_path)
         if place != folder():
             return super()._load_data(name)
-        return _Unpickler(BytesIO((place / name).read_bytes())).load()
+        whole = (place / name).read_bytes()
+        digest, content = whole[:DIGEST], whole[DIGEST:]
+        if digest != _digest(name, content):
+            raise OSError(f"{name} is damaged.")  # numba compiles what it cannot read
+        return _Unpickler(BytesIO(content)).load()
+
+
+DIGEST = 32
+"""Its length [bytes]."""
+
+
+def _digest(name: str, content: bytes) -> bytes:
+    return sha256(name.encode() + b"\0" + content).digest()
 
 
 def _load_ours(self: Any, signature: Any, target: Any) -> Any:

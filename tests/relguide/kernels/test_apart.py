@@ -134,6 +134,17 @@ def test_a_callee_that_is_gone_from_the_disk_is_compiled_alone(toys: Path) -> No
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("damage", [b"", b"\0" * 5000, None])
+def test_a_damaged_file_is_compiled_anew(toys: Path, damage: bytes | None) -> None:
+    compiled(toys)
+    (ranked,) = (toys / "kept" / "relguide").glob("inner.ranked-*.1.nbc")
+    (least,) = (toys / "kept" / "relguide").glob("least.least-*.1.nbc")
+    ranked.write_bytes(least.read_bytes() if damage is None else damage)
+    assert compiled(toys) == (ANSWER, ["ranked"])
+    assert compiled(toys) == (ANSWER, [])
+
+
+@pytest.mark.slow
 def test_what_changes_in_a_callee_changes_the_answer(toys: Path) -> None:
     compiled(toys)
     inner = toys / "relguide/kernels/toys/inner.py"
