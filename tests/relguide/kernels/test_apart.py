@@ -187,6 +187,31 @@ def test_python_calls_what_was_read_from_disk_for_a_kernel_alone(toys: Path) -> 
 
 
 @pytest.mark.slow
+def test_threads_that_call_a_kernel_first_at_once_make_one_entry(toys: Path) -> None:
+    """Of two equal entries numba takes none, and would ask for one at every later call."""
+    compiled(toys)
+    first_calls = (
+        "from threading import Barrier, Thread\n"
+        "import numpy as np\n"
+        "from relguide.kernels import apart\n"
+        "from relguide.kernels.toys.least import least\n"
+        "compile, both, asked = apart._compile_any, Barrier(2), []\n"
+        "def compile_together(kernel, signature):\n"
+        "    asked.append(kernel.py_func.__name__)\n"
+        "    if len(asked) <= 2:\n"
+        "        both.wait(20.0)\n"
+        "    return compile(kernel, signature)\n"
+        "apart._compile_any = compile_together\n"
+        "call = lambda: least(np.array([2.0, 1.0]))\n"
+        "threads = [Thread(target=call) for _ in range(2)]\n"
+        "[one.start() for one in threads]\n"
+        "[one.join() for one in threads]\n"
+        "print(call(), len(asked))"
+    )
+    assert compiled(toys, first_calls)[0] == "1.0 2"
+
+
+@pytest.mark.slow
 def test_processes_at_once_do_not_disturb_each_other(toys: Path) -> None:
     paths = os.pathsep.join([str(toys), *filter(None, sys.path)])
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(toys / "kept"), "PYTHONPATH": paths}
