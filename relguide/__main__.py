@@ -68,7 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     given = sys.argv[1:] if arguments is None else arguments
     for stream in ("stdout", "stderr"):
-        if getattr(sys, stream) is None:  # closed by whoever started it: nobody listens there
+        if getattr(sys, stream) is None:  # it was closed: what is written goes nowhere
             setattr(sys, stream, open(os.devnull, "w"))
     atexit.register(gc.freeze)  # what is loaded is not searched for garbage as it ends: 0.2 s
     try:

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
 NEEDED = ("flying", "limited", "proofs")
 """The steps of `relguide.warm_up` that a proof needs."""
+FIRST = "The first proof of an installation compiles what proofs need, once: a minute or two.\n"
 
 
 def compile_proofs() -> None:
@@ -19,9 +20,7 @@ def compile_proofs() -> None:
 
     left = missing(NEEDED)
     if left:
-        sys.stderr.write(
-            "The first proof compiles its kernels, once, about a minute of CPU time.\n"
-        )
+        sys.stderr.write(FIRST)
         warm_up(left, jobs=usual_jobs())
 
 

@@ -22,7 +22,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
 from sys import modules
-from threading import local
+from threading import Lock, local
 from typing import Any
 
 import llvmlite.binding as llvm
@@ -282,18 +282,30 @@ def _wrapper_key(kernel: Any, result: Any) -> Any:
     return kernel._cache._index_key(types, result.codegen)
 
 
+_few_lock = Lock()
+_found: dict[str, Any] = {}
+"""How garbage was collected before any thread compiled, and how many now do."""
+
+
 @contextmanager
 def _few_collections() -> Iterator[None]:
     """Collect garbage seldom, and where a program never does: compiling makes much of it."""
-    before, enabled = gc.get_threshold(), gc.isenabled()
-    gc.set_threshold(COLLECT_EVERY, *before[1:])
-    gc.enable()
+    with _few_lock:
+        if not _found:  # the first thread that compiles: the last one restores what it found
+            _found.update(threshold=gc.get_threshold(), enabled=gc.isenabled(), threads=0)
+            gc.set_threshold(COLLECT_EVERY, *_found["threshold"][1:])
+            gc.enable()
+        _found["threads"] += 1
     try:
         yield
     finally:
-        gc.set_threshold(*before)
-        if not enabled:
-            gc.disable()
+        with _few_lock:
+            _found["threads"] -= 1
+            if not _found["threads"]:
+                gc.set_threshold(*_found["threshold"])
+                if not _found["enabled"]:
+                    gc.disable()
+                _found.clear()
 
 
 _library = codegen.CPUCodeLibrary

@@ -1,5 +1,6 @@
 """Each kernel is compiled once, is found again by its callers, and answers as numba's own code."""
 
+import gc
 import os
 import shutil
 import subprocess
@@ -8,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from relguide.kernels import cache
+from relguide.kernels import apart, cache
 
 INNER = """
 from typing import NamedTuple
@@ -242,3 +243,21 @@ def test_a_large_kernel_is_only_declared_in_its_callers(toys: Path) -> None:
     (names,) = run(toys, CALL + defined).stdout.splitlines()[1:]
     assert "5outer" in names
     assert "6ranked" not in names
+
+
+def test_garbage_is_collected_as_before_once_the_last_thread_has_compiled() -> None:
+    before, enabled = gc.get_threshold(), gc.isenabled()
+    one, other = apart._few_collections(), apart._few_collections()
+    gc.disable()
+    try:
+        one.__enter__()
+        other.__enter__()
+        one.__exit__(None, None, None)
+        assert gc.get_threshold()[0] == apart.COLLECT_EVERY
+        assert gc.isenabled()
+        other.__exit__(None, None, None)
+        assert gc.get_threshold() == before
+        assert not gc.isenabled()
+    finally:
+        if enabled:
+            gc.enable()
