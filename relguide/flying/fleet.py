@@ -239,12 +239,13 @@ class Fleet:
 def limits_of(aircraft: Aircraft, airframe: Airframe, air: Air) -> Limits:
     """What an aircraft can do at its level; leaders may fly at any speed that is accepted."""
     slowest, fastest = airframe.tas_range(aircraft.altitude, air)
+    bank = aircraft.autopilot_bank
     deceleration = airframe.max_deceleration
     if not isinstance(aircraft.pilot, Guided):
-        slowest, fastest = TAS.low, TAS.high
+        slowest, fastest, bank = TAS.low, TAS.high, aircraft.max_bank
         deceleration *= DECLARED_DECELERATION
     return Limits(
-        aircraft.max_bank,
+        bank,
         airframe.max_roll_rate,
         airframe.roll_time_constant,
         airframe.speed_time_constant,

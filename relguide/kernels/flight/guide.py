@@ -40,7 +40,7 @@ HOLD, CONVERGE, CAPTURE, FOLLOW, ESCAPE = 0, 1, 2, 3, 4
 """Modes; in the first and the last a heading is held."""
 BENDS_AHEAD = 45.0
 """How far ahead a bend of the leader's path is slowed down for [s]: 30 m/s at 0.7 m/s²."""
-BEND_BANK = 0.9
+BEND_BANK = 0.95
 """Share of its bank that an aircraft plans to need in it."""
 
 
