@@ -11,6 +11,7 @@ from math import exp
 
 from relguide.flying.fleet import Fleet
 from relguide.flying.pursuit import Pursuit
+from relguide.kernels.flight.energy import full_deceleration, load_square
 
 SECONDS = 3
 """So long in a row it must be short of what was asked."""
@@ -30,14 +31,16 @@ def learn_braking(one: Pursuit, fleet: Fleet) -> None:
     asked = max(one.advice.control.tas, limits.min_tas)
     lost = before - now
     by_lag = (before - asked) * (1.0 - exp(-1.0 / limits.speed_time))
-    if lost >= LAG_ALONE * by_lag or lost >= SHORT * limits.deceleration:
+    believed = full_deceleration(limits, now, load_square(fleet.body(one.pursuer).bank))
+    if lost >= LAG_ALONE * by_lag or lost >= SHORT * believed:
         one.braked = ()
         return
     one.braked = (*one.braked, lost)
     if len(one.braked) < SECONDS or max(one.braked) <= 0.0:
         return
     seen, one.braked = max(one.braked), ()
-    fleet.believed_limits[one.pursuer] = limits._replace(deceleration=seen)
+    believed_share = limits.braking * seen / believed
+    fleet.believed_limits[one.pursuer] = limits._replace(braking=believed_share)
     idle = min(one.assignment.idle_deceleration, seen)
     one.assignment = replace(one.assignment, idle_deceleration=idle)
     one.memory = one.memory._replace(forecast=None)  # it braked harder than that

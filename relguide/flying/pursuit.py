@@ -6,7 +6,7 @@ from typing import NamedTuple
 from relguide.flying.aircraft_documents import Loss
 from relguide.flying.belief import Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
-from relguide.flying.fleet import Fleet
+from relguide.flying.fleet import Fleet, dependable_deceleration, limits_of
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
@@ -127,14 +127,14 @@ def begin_pursuit(
 def assignment_of(world: World, link: Link) -> Assignment:
     """What a link asks of its pursuer."""
     pursuer = world.aircraft[world.index(link.pursuer)]
-    can = pursuer.known_airframe
-    least, _ = can.tas_range(pursuer.altitude, world.believed_air or world.air)
+    can, air = pursuer.known_airframe, world.believed_air or world.air
+    limits = limits_of(pursuer, can, air)
     return Assignment(
         aircraft_type=can.designator,
         tas=pursuer.tas,
         max_bank=pursuer.max_bank,
-        idle_deceleration=can.idle_deceleration,
-        min_tas=least,
+        idle_deceleration=dependable_deceleration(limits, pursuer.tas),
+        min_tas=limits.min_tas,
         slot_distance=link.slot_distance,
         min_separation=link.min_separation,
         spacing=link.spacing,
