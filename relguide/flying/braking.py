@@ -14,6 +14,7 @@ import numpy as np
 from relguide.flying.fleet import Fleet
 from relguide.flying.pursuit import Pursuit
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.flight.energy import full_deceleration
 from relguide.units import MetrePerSecond
 
 ASKED_LESS: MetrePerSecond = 5.0
@@ -48,13 +49,16 @@ def learn_braking(one: Pursuit, fleet: Fleet) -> None:
     if len(points) < LEAST:
         return
     slope, error = _line(points)
-    full, idle = one.brakes
-    weak = -slope + SURE * error < SHORT * full
-    seen = max(-slope, FLOOR * idle) if weak else full
-    if abs(seen - limits.deceleration) <= max(error, (1.0 - SHORT) * full):
+    by_data = limits._replace(braking=1.0)
+    full = full_deceleration(by_data, float(points.mean()), 1.0)
+    share, least = 1.0, FLOOR * one.idle_deceleration / full
+    if -slope + SURE * error < SHORT * full:
+        share = max(-slope / full, least)
+    if abs(share - limits.braking) <= max(error / full, 1.0 - SHORT):
         return
-    fleet.believed_limits[one.pursuer] = limits._replace(deceleration=seen)
-    one.assignment = replace(one.assignment, idle_deceleration=min(idle, seen))
+    fleet.believed_limits[one.pursuer] = limits._replace(braking=share)
+    idle = min(one.idle_deceleration, share * full)
+    one.assignment = replace(one.assignment, idle_deceleration=idle)
     committed = one.memory.committed is not None
     pending = "braking" if committed else one.memory.pending
     one.memory = one.memory._replace(forecast=None, pending=pending)

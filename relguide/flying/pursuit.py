@@ -6,7 +6,7 @@ from typing import NamedTuple
 from relguide.flying.aircraft_documents import Loss
 from relguide.flying.belief import Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
-from relguide.flying.fleet import Fleet
+from relguide.flying.fleet import Fleet, dependable_deceleration, limits_of
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
@@ -30,15 +30,6 @@ class LeaderView(NamedTuple):
     """What it last did unannounced, for the cause of a loss; empty if nothing."""
     changed_at: Second = LONG_AGO
     """When, flight time [s]."""
-
-
-class Brakes(NamedTuple):
-    """How an aircraft slows down, as its data say."""
-
-    full: float
-    """With all brakes that the autothrust has [m/s²]."""
-    idle: float
-    """At idle thrust [m/s²]."""
 
 
 class FlightMetrics(NamedTuple):
@@ -92,8 +83,8 @@ class Pursuit:
     view: LeaderView
     memory: Memory
     metrics: FlightMetrics
-    brakes: Brakes
-    """What the pursuer's type gives."""
+    idle_deceleration: float
+    """What the data of the pursuer's type give [m/s²]."""
     advice: Advice | None = None
     shown_forecast: Forecast | None = None
     lost: bool = False
@@ -134,22 +125,22 @@ def begin_pursuit(
         view=LeaderView(belief),
         memory=begin(belief, engagement),
         metrics=FlightMetrics(fleet.apart(i, j)),
-        brakes=Brakes(belief.limits.deceleration, assignment.idle_deceleration),
+        idle_deceleration=assignment.idle_deceleration,
     )
 
 
 def assignment_of(world: World, link: Link) -> Assignment:
     """What a link asks of its pursuer."""
     pursuer = world.aircraft[world.index(link.pursuer)]
-    can = pursuer.known_airframe
-    least, _ = can.tas_range(pursuer.altitude, world.believed_air or world.air)
+    can, air = pursuer.known_airframe, world.believed_air or world.air
+    limits = limits_of(pursuer, can, air)
     return Assignment(
         aircraft_type=can.designator,
         tas=pursuer.tas,
         asked_bank=pursuer.max_bank,
         max_bank=pursuer.autopilot_bank,
-        idle_deceleration=can.idle_deceleration,
-        min_tas=least,
+        idle_deceleration=dependable_deceleration(limits, pursuer.tas),
+        min_tas=limits.min_tas,
         slot_distance=link.slot_distance,
         min_separation=link.min_separation,
         spacing=link.spacing,

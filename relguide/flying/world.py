@@ -18,7 +18,7 @@ from relguide.planning.limits import (
     too_close_a_slot,
 )
 from relguide.planning.situation import IntentPiece, expect_bank, expect_distance, expect_intent
-from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
+from relguide.units import DEG, Kilogram, Metre, MetrePerSecond, Radian, Second
 
 ALTITUDES = Range(-500.0, 20_000.0, "m")
 """Where aircraft fly: from below the Dead Sea's shore to where the standard air ends."""
@@ -84,6 +84,8 @@ class Aircraft:
     max_bank: Radian
     """What its plans turn with [rad]."""
     pilot: Pilot
+    weight: Kilogram = 0.0
+    """[kg]; 0 for the reference weight of its airframe."""
     believed: Airframe | None = None
     """What its guidance believes of the airframe; the truth, if left out."""
 
@@ -97,6 +99,7 @@ class Aircraft:
             value = expect_within(name, getattr(self, name), *accepted)
             object.__setattr__(self, name, value)
         object.__setattr__(self, "max_bank", expect_bank("max_bank", self.max_bank))
+        self.airframe.expect_weight("weight", self.weight)
         expect("pilot", self.pilot, Guided, Declared, Recorded)
         if self.believed is not None:
             expect("believed", self.believed, Airframe)
@@ -186,7 +189,12 @@ class World:
         if not isinstance(pursuer.pilot, Guided):
             raise ValueError(f"The pilot of {pursuer.ident!r} must be Guided() to join a leader.")
         fault = envelope_fault(
-            pursuer.airframe, pursuer.altitude, self.air, tas=pursuer.tas, bank=pursuer.max_bank
+            pursuer.airframe,
+            pursuer.altitude,
+            self.air,
+            tas=pursuer.tas,
+            bank=pursuer.max_bank,
+            weight=pursuer.weight,
         )
         if fault:
             raise ValueError(fault)

@@ -14,6 +14,7 @@ from numba import njit
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight import marks as at
+from relguide.kernels.flight.energy import regained
 from relguide.kernels.flight.flight_records import (
     HOLD_HEADING,
     Body,
@@ -147,7 +148,7 @@ def act(
         ):
             tas = task.tas
             if task.tas > course.slot_tas:
-                tas = closing_tas(to_slot, course.slot_tas, tas, limits.acceleration, gains)
+                tas = closing_tas(to_slot, course.slot_tas, tas, regained(limits, body), gains)
             aloft = move_to(body, x, y)
             control = _along_path(course.path, s, right, aloft, limits, gains, tas)
             return Act(control, Progress(CONVERGE, s, 0.0, 0.0), right, to_slot, False)
@@ -226,7 +227,7 @@ def _along_marks(
     room = hypot(body.x - leader[at.X], body.y - leader[at.Y]) - task.min_separation
     closing = min(to_slot, room) if room < 0.0 else to_slot
     keeping = tas_for_ground_speed(body.heading, leader[at.SPEED], wind)
-    tas = closing_tas(closing, keeping, task.tas, limits.acceleration, gains)
+    tas = closing_tas(closing, keeping, task.tas, regained(limits, body), gains)
     bend = sharpest_bend(marks, s, s + speed * BENDS_AHEAD, speed)
     if bend > 0.0:  # no faster than what can be banked for where the leader turned
         slow = sqrt(G0 * tan(BEND_BANK * limits.max_bank) / bend)

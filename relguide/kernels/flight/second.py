@@ -35,7 +35,7 @@ def fly_second(
 
     Args:
         states: where they are; in the end, where they are then. shape (n, 7), as `Body`
-        limits: what they can do. shape (n, 8), as `Limits`
+        limits: what they can do. shape (n, 15), as `Limits`
         pilots: who flies each: `GUIDED`, `PROGRAMMED` or `RECORDED`. shape (n,)
         controls: what guidance asks of each. shape (n, 3), as `Control`
         programs: what each declared; the rest of a row is not read. shape (n, k, 3)
