@@ -1,7 +1,7 @@
 """Gusts at height: Dryden's spectra of MIL-F-8785C, as exact filters of white noise.
 
-    Φ_u(ω) = σ² (2T/2π) 2 / (1 + (Tω)²)                     along,   T = L/V
-    Φ_v(ω) = σ² (T/2π) 2 (1 + 3(Tω)²) / (1 + (Tω)²)²        across,  one-sided in ω, in all σ²
+    Φ_u(ω) = σ² (2T/π) / (1 + (Tω)²)                        along,   T = L/V
+    Φ_v(ω) = σ² (T/π) (1 + 3(Tω)²) / (1 + (Tω)²)²           across,  ∫ Φ dω = σ² from 0 to ∞
 
 Their autocovariances are R_u = σ² e^(−τ/T) and R_v = σ² (1 − τ/2T) e^(−τ/T). Sampled each dt, u is
 an autoregression of first order, and v one of second order (poles a = e^(−dt/T), twice) of noise
