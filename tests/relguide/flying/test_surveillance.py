@@ -114,7 +114,8 @@ def test_what_a_turning_aircraft_reports_is_where_it_was() -> None:
         was = rate * (t - 1.4)
         if t > 2:
             errors.append((
-                report.x - speed / rate * (1.0 - np.cos(was)), report.y - speed / rate * np.sin(was),
+                report.x - speed / rate * (1.0 - np.cos(was)),
+                report.y - speed / rate * np.sin(was),
                 report.east - speed * np.sin(was), report.north - speed * np.cos(was),
             ))  # fmt: skip
     assert np.mean(errors, axis=0) == pytest.approx(0.0, abs=0.5)

@@ -1,4 +1,4 @@
-"""Winds by altitude are linear between their levels, and files that give them are read or refused."""
+"""Winds by altitude are linear between levels, and files that give them are read or refused."""
 
 from math import hypot
 from pathlib import Path
