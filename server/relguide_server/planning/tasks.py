@@ -248,13 +248,11 @@ def _answered(given: dict[str, Any], started: float) -> PlanReply:
 
 
 def _is_final(given: dict[str, Any]) -> bool:
-    match given:
-        case {"status": "planned", "optimality": {"proof": "relaxation"}}:
-            return True
-        case {"status": "planned", "planner": "network"}:
-            return True
-        case {"status": "no_plan", "reason": reason}:
-            return bool(reason != "deadline")
+    match given["status"]:
+        case "planned":
+            return given["planner"] == "network" or given["optimality"]["proof"] == "relaxation"
+        case "no_plan":
+            return bool(given["reason"] != "deadline")
         case _:
             return False
 
