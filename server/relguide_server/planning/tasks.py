@@ -250,7 +250,8 @@ def _answered(given: dict[str, Any], started: float) -> PlanReply:
 def _is_final(given: dict[str, Any]) -> bool:
     match given["status"]:
         case "planned":
-            return given["planner"] == "network" or given["optimality"]["proof"] == "relaxation"
+            proof: str = given["optimality"]["proof"]
+            return proof == "relaxation" or bool(given["planner"] == "network")
         case "no_plan":
             return bool(given["reason"] != "deadline")
         case _:
