@@ -37,7 +37,7 @@ def lateral_step(body: Body, control: Control, limits: Limits, wind: Drift, dt: 
     asked = min(max(control.tas, limits.min_tas * sqrt(sqrt(square))), limits.max_tas)
     gain = max((asked - v) / limits.speed_time, -full_deceleration(limits, v, square))
     gain = min(gain, most_acceleration(limits, v, square))
-    v_end = v + dt * (max(gain, 0.0) if v < limits.min_tas else gain)
+    v_end = max(v + dt * gain, min(v, limits.min_tas))
     v_mean = 0.5 * (v + v_end)
     rate = G0 / v_mean * side
     x, y, heading = advance(body.x, body.y, body.heading, v_mean, rate, dt)
