@@ -243,13 +243,14 @@ def limits_of(aircraft: Aircraft, airframe: Airframe, air: Air) -> Limits:
     Leaders fly at any speed that is accepted, whatever their type: so they speed up and slow down,
     without brakes, as their type does at the speed nearest to theirs.
     """
+    guided = isinstance(aircraft.pilot, Guided)
     rolls = (
-        aircraft.max_bank,
+        aircraft.autopilot_bank if guided else aircraft.max_bank,
         airframe.max_roll_rate,
         airframe.roll_time_constant,
         airframe.speed_time_constant,
     )
-    if isinstance(aircraft.pilot, Guided):
+    if guided:
         level, weight = aircraft.altitude, airframe.expect_weight("weight", aircraft.weight)
         slowest, fastest = airframe.tas_range(level, air, weight)
         climb, idle, brakes, induced = airframe.energy(level, air, weight)

@@ -58,6 +58,10 @@ class FlightMetrics(NamedTuple):
     unable: tuple[Second, ...] = ()
     """When `Unable` was said first since the last plan; empty if it was not."""
     losses: tuple[Loss, ...] = ()
+    along_error: Metre = 0.0
+    """Largest along the route while it followed."""
+    across_error: Metre = 0.0
+    """Largest beside it."""
 
 
 @dataclass(slots=True)
@@ -79,14 +83,14 @@ class Pursuit:
     view: LeaderView
     memory: Memory
     metrics: FlightMetrics
-    tas: MetrePerSecond
-    """The pursuer's a second ago [m/s]."""
+    idle_deceleration: float
+    """What the data of the pursuer's type give [m/s²]."""
     advice: Advice | None = None
     shown_forecast: Forecast | None = None
     lost: bool = False
     """Whether the separation is below d_min."""
     braked: tuple[MetrePerSecond, ...] = ()
-    """What was lost in each of the last seconds in which it braked less than was asked [m/s]."""
+    """The airspeeds of the last seconds, all of them with braking asked for in earnest [m/s]."""
     doubted: int = 0
     """For how many seconds the leader has not flown what it declared."""
 
@@ -108,19 +112,20 @@ def begin_pursuit(
     intent, track = link.declared_intent, fleet.begin_track(link)
     declared = None if intent is None else fleet.as_declared(j, intent)
     belief = fleet.belief(i, j, track, 0.0, link.intent_known, declared)
+    assignment = assignment_of(world, link)
     return Pursuit(
         link=link,
         names=PairNames(link.pursuer, link.leader),
         pursuer=i,
         leader=j,
-        assignment=assignment_of(world, link),
+        assignment=assignment,
         track=track,
         known=belief.intent_known,
         declared=declared,
         view=LeaderView(belief),
         memory=begin(belief, engagement),
         metrics=FlightMetrics(fleet.apart(i, j)),
-        tas=belief.own.tas,
+        idle_deceleration=assignment.idle_deceleration,
     )
 
 
@@ -132,7 +137,8 @@ def assignment_of(world: World, link: Link) -> Assignment:
     return Assignment(
         aircraft_type=can.designator,
         tas=pursuer.tas,
-        max_bank=pursuer.max_bank,
+        asked_bank=pursuer.max_bank,
+        max_bank=pursuer.autopilot_bank,
         idle_deceleration=dependable_deceleration(limits, pursuer.tas),
         min_tas=limits.min_tas,
         slot_distance=link.slot_distance,

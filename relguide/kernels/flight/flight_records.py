@@ -97,6 +97,12 @@ def move_to(body: Body, x: float, y: float) -> Body:
 
 
 @njit(cache=True, nogil=True)
+def at_speed(body: Body, tas: float) -> Body:
+    """The same aircraft at another true airspeed [m/s]."""
+    return Body(body.x, body.y, body.heading, body.bank, body.roll_rate, tas, body.integral)
+
+
+@njit(cache=True, nogil=True)
 def body_at(states: FloatArray, i: int) -> Body:
     """Row i of the states."""
     row = states[i]
