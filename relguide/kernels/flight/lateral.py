@@ -42,7 +42,7 @@ def lateral_step(body: Body, control: Control, limits: Limits, wind: Drift, dt: 
         gain = max(gain, -full_deceleration(limits, v, square))
     gain = min(gain, most_acceleration(limits, v, square))
     v_end = max(v + dt * gain, min(v, limits.min_tas))
-    v_mean = 0.5 * (v + v_end)
-    rate = G0 / v_mean * side
+    v_mean, inverse = 0.5 * (v + v_end), 1.0 / v
+    rate = G0 * side * inverse * (2.0 - v_mean * inverse)  # 1/V̄ from 1/V, which drag needs as well
     x, y, heading = advance(body.x, body.y, body.heading, v_mean, rate, dt)
     return Body(x + wind.east * dt, y + wind.north * dt, heading, phi_end, p_end, v_end, integral)
