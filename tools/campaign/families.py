@@ -54,16 +54,19 @@ FIRST_TURN: Second = 25.0
 CONSTANTS = (
     "max_roll_rate",
     "roll_time_constant",
-    "max_acceleration",
-    "max_deceleration",
     "speed_time_constant",
+    "speed_brake_drag",
 )
-"""Of an aircraft, all unknown to guidance in the family `aircraft`; idle thrust decelerates as much
-less or more as brakes do. The bank limit is a setting of the autopilot, and known."""
+"""Of an aircraft, all unknown to guidance in the family `aircraft`. The bank limit is a setting of
+the autopilot, and known."""
 SPREAD = 0.3
 """How far they are off at most."""
-POOR_BRAKES = 0.25
-"""[m/s²], and as a factor: what guidance believes is 1 m/s². Every other aircraft has them."""
+ENERGY = ("thrust_share", "zero_lift_drag", "induced_drag")
+"""Unknown as well, and …"""
+ENERGY_SPREAD = 0.05
+"""… so far off at most: speed is the difference of thrust and drag."""
+POOR_BRAKES = 0.0
+"""Factor: speed brakes that stay in. Every other aircraft has them."""
 IN_HAND = 1.1
 """Behind a recorded leader the pursuer flies faster than its least speed by this factor."""
 SLOWEST = 60.0
@@ -122,9 +125,11 @@ def _draw_aircraft(rng: Draw, family: str, number: int) -> Case:
     """An aircraft that guidance knows badly; intent known."""
     case = _case(family, number, _situation(rng, _turns(rng) if rng.random() < 0.5 else ()))
     factors = {name: float(rng.uniform(1.0 - SPREAD, 1.0 + SPREAD)) for name in CONSTANTS}
+    factors |= {
+        name: float(rng.uniform(1.0 - ENERGY_SPREAD, 1.0 + ENERGY_SPREAD)) for name in ENERGY
+    }
     if number % 2:
-        factors["max_deceleration"] = POOR_BRAKES
-    factors["idle_deceleration"] = factors["max_deceleration"]
+        factors["speed_brake_drag"] = POOR_BRAKES
     return replace(case, factors=factors)
 
 
