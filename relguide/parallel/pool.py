@@ -76,6 +76,13 @@ class Pool(Executor):
                 future.set_exception(error)
 
 
+def count_cores() -> int:
+    """How many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):  # in a container it knows better
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
 @contextmanager
 def start_threads(count: int) -> Iterator[Executor]:
     """Threads of this process; what they are at is left undone if an exception ends the work."""
@@ -93,7 +100,7 @@ def start_processes(count: int) -> Iterator[Executor]:
     On Linux they begin as copies of this process, with all that it has loaded. An exception, as
     Ctrl-C is, kills them; what they were at is lost.
     """
-    context = get_context("fork" if sys.platform == "linux" else "spawn")
+    context: Any = get_context("fork" if sys.platform == "linux" else "spawn")
     children: list[BaseProcess] = []
     pool = Pool()
     try:
@@ -154,6 +161,7 @@ def _work(pipe: "Connection[Any, Any]") -> None:
     Thread(target=_follow_parent, daemon=True).start()
     while True:
         call: Call = pipe.recv()
+        answer: tuple[Exception | None, Any]
         try:
             answer = None, call.do()
         except Exception as error:

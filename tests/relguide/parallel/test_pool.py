@@ -84,7 +84,7 @@ def die(number: int) -> None:
 def test_processes_do_what_is_asked_and_raise_what_is_raised() -> None:
     with start_processes(2) as pool:
         assert list(pool.map(abs, range(-5, 5))) == [5, 4, 3, 2, 1, 0, 1, 2, 3, 4]
-        with pytest.raises(ZeroDivisionError, match="^3 by zero") as failed:
+        with pytest.raises(ZeroDivisionError, match="3 by zero") as failed:
             pool.submit(fail, 3).result()
         assert "in fail" in "".join(failed.value.__notes__)  # where it was, over there
         with pytest.raises(AttributeError, match="pickle"):
@@ -93,9 +93,10 @@ def test_processes_do_what_is_asked_and_raise_what_is_raised() -> None:
 
 
 def test_a_process_that_is_lost_is_an_error_and_no_wait() -> None:
-    with pytest.raises(BrokenProcessPool), start_processes(2) as pool:
+    with start_processes(2) as pool:
         lost = pool.submit(die, 3)
-        lost.result(timeout=30.0)
+        with pytest.raises(BrokenProcessPool):
+            lost.result(timeout=30.0)
 
 
 def test_threads_work_beside_each_other() -> None:
