@@ -17,7 +17,8 @@ def draw_distributions(figures: Mapping[str, Mapping[str, Sequence[float]]], fil
     """Draw a panel for each figure, a line for each point of the sweep, and write it.
 
     Args:
-        figures: values by the figure's heading and the point's name; what is always the same is left out.
+        figures: values by the figure's heading and the point's name; what is always the same is
+            left out.
         file: where to; its suffix says as what.
     """
     from matplotlib import rc_context

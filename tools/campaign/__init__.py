@@ -1,1 +1,1 @@
-"""The figures of docs/flight.md: loops, step responses, the campaign: `python -m tools.campaign`."""
+"""The figures of docs/flight.md: loops, responses, the campaign: `python -m tools.campaign`."""
