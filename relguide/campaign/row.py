@@ -66,9 +66,9 @@ class Row:
     cross_track_m: float
     """Largest distance from the path of the last plan, while it is flown."""
     optimum_s: float | None = None
-    """Of the fastest plan that knows all; `None` without one, or if the leader is ordered about."""
+    """Of the fastest plan to the final leg, all known; `None` without, or with orders."""
     over_optimum_s: float | None = None
-    """How much later than that it joined."""
+    """How much later than that it joined; earlier, where it joined before the leader's last turn."""
     why_not_joined: str = ""
     join_over_last_promise: float | None = None
     """Over the promise from the plan last announced, and by its promise."""

@@ -113,9 +113,9 @@ def test_the_last_promise_is_the_first_where_no_other_was_announced() -> None:
     assert abs(untold.join_over_last_promise - 1.0) < 0.03 < abs(untold.join_over_promise - 1.0)
 
 
-def test_the_optimum_knows_all_and_nothing_beats_it() -> None:
-    row = fly_case(draw("undeclared", 1))
-    case = draw("undeclared", 1)
+def test_the_optimum_is_the_plan_that_knows_all() -> None:
+    case = draw("declared", 0)
+    row = fly_case(case)
     best = find_plan(case.scenario.situation)
     assert row.optimum_s == best.time_to_converge
     assert row.join_s is not None
