@@ -1,18 +1,24 @@
 """One pursuer and its leader in flight: what a closed loop keeps of them from second to second."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+import numpy as np
+
 from relguide.flying.aircraft_documents import Loss
-from relguide.flying.belief import Belief, FlownTrack, coasting
+from relguide.flying.belief import SPARE, Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
-from relguide.flying.fleet import Fleet
+from relguide.flying.fleet import Fleet, dependable_deceleration, limits_of
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
 from relguide.flying.logbook import PairNames
+from relguide.flying.perception import Perceived, Perception
 from relguide.flying.world import Link, World
 from relguide.units import Metre, MetrePerSecond, Radian, Second
+
+MARGIN_STEP: Metre = 25.0
+"""A margin that changes by less stays [m]."""
 
 
 class LeaderView(NamedTuple):
@@ -58,6 +64,10 @@ class FlightMetrics(NamedTuple):
     unable: tuple[Second, ...] = ()
     """When `Unable` was said first since the last plan; empty if it was not."""
     losses: tuple[Loss, ...] = ()
+    along_error: Metre = 0.0
+    """Largest along the route while it followed."""
+    across_error: Metre = 0.0
+    """Largest beside it."""
 
 
 @dataclass(slots=True)
@@ -72,6 +82,10 @@ class Pursuit:
     """Which of the fleet."""
     assignment: Assignment
     track: FlownTrack
+    perception: Perception | None
+    """`None` where the pursuer sees the truth."""
+    seen: Perceived | None
+    """What it last perceived; `None` as above."""
     known: bool
     """Whether the leader's intent is."""
     declared: Fleet | None
@@ -79,14 +93,16 @@ class Pursuit:
     view: LeaderView
     memory: Memory
     metrics: FlightMetrics
-    tas: MetrePerSecond
-    """The pursuer's a second ago [m/s]."""
+    idle_deceleration: float
+    """What the data of the pursuer's type give [m/s²]."""
     advice: Advice | None = None
     shown_forecast: Forecast | None = None
     lost: bool = False
     """Whether the separation is below d_min."""
     braked: tuple[MetrePerSecond, ...] = ()
-    """What was lost in each of the last seconds in which it braked less than was asked [m/s]."""
+    """The airspeeds of the last seconds, all of them with braking asked for in earnest [m/s]."""
+    seen_at: Second = 0.0
+    """When that was, flight time [s]."""
     doubted: int = 0
     """For how many seconds the leader has not flown what it declared."""
 
@@ -97,44 +113,77 @@ class Pursuit:
         """What the pursuer knows now."""
         if self.heard is not None:
             return coasting(self.heard, t, fleet.body(self.pursuer))
-        return fleet.belief(self.pursuer, self.leader, self.track, t, self.known, self.declared)
+        seen = self.seen
+        if self.perception is not None and (seen is None or t > self.seen_at):
+            seen = fleet.see(self.perception, self.pursuer, self.leader, t)
+            self.seen, self.seen_at = seen, t
+        return fleet.belief(
+            self.pursuer, self.leader, self.track, t, self.known, self.declared, seen
+        )
+
+
+def keep_margin(one: Pursuit, belief: Belief) -> None:
+    """Keep as much beside d_min as what is believed now is uncertain."""
+    margin = belief.spread.margin
+    if abs(margin - one.assignment.margin) > MARGIN_STEP:
+        one.assignment = replace(one.assignment, margin=margin)
 
 
 def begin_pursuit(
-    world: World, fleet: Fleet, link: Link, engagement: Engagement = "engaged"
+    world: World, fleet: Fleet, link: Link, engagement: Engagement = "engaged", seed: int = 0
 ) -> Pursuit:
-    """A link at the start of a flight."""
+    """A link at the start of a flight.
+
+    Args:
+        world: as it begins.
+        fleet: its aircraft.
+        link: one of its links.
+        engagement: how far guidance is engaged.
+        seed: of what is not perceived exactly.
+    """
     i, j = world.index(link.pursuer), world.index(link.leader)
-    intent, track = link.declared_intent, fleet.begin_track(link)
+    perception, seen = None, None
+    leader, drift = fleet.body(j), fleet.drift(j)
+    if world.perceives:
+        perception = Perception(world, i, np.random.default_rng([seed, i, j]))
+        perception.listen(leader, drift, fleet.drift(i))
+        seen = fleet.see(perception, i, j, 0.0)
+        leader, drift = seen.leader, seen.wind
+    track = FlownTrack(leader, drift, 0.0, link.slot_distance + SPARE)
+    intent = link.declared_intent
     declared = None if intent is None else fleet.as_declared(j, intent)
-    belief = fleet.belief(i, j, track, 0.0, link.intent_known, declared)
+    belief = fleet.belief(i, j, track, 0.0, link.intent_known, declared, seen)
+    assignment = assignment_of(world, link)
     return Pursuit(
         link=link,
         names=PairNames(link.pursuer, link.leader),
         pursuer=i,
         leader=j,
-        assignment=assignment_of(world, link),
+        assignment=assignment,
         track=track,
+        perception=perception,
+        seen=seen,
         known=belief.intent_known,
         declared=declared,
         view=LeaderView(belief),
         memory=begin(belief, engagement),
         metrics=FlightMetrics(fleet.apart(i, j)),
-        tas=belief.own.tas,
+        idle_deceleration=assignment.idle_deceleration,
     )
 
 
 def assignment_of(world: World, link: Link) -> Assignment:
     """What a link asks of its pursuer."""
     pursuer = world.aircraft[world.index(link.pursuer)]
-    can = pursuer.known_airframe
-    least, _ = can.tas_range(pursuer.altitude, world.believed_air or world.air)
+    can, air = pursuer.known_airframe, world.believed_air or world.air
+    limits = limits_of(pursuer, can, air)
     return Assignment(
         aircraft_type=can.designator,
         tas=pursuer.tas,
-        max_bank=pursuer.max_bank,
-        idle_deceleration=can.idle_deceleration,
-        min_tas=least,
+        asked_bank=pursuer.max_bank,
+        max_bank=pursuer.autopilot_bank,
+        idle_deceleration=dependable_deceleration(limits, pursuer.tas),
+        min_tas=limits.min_tas,
         slot_distance=link.slot_distance,
         min_separation=link.min_separation,
         spacing=link.spacing,

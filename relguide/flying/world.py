@@ -7,6 +7,7 @@ from relguide.flying.air import STANDARD_AIR, Air
 from relguide.flying.airframe import Airframe
 from relguide.flying.envelope import envelope_fault
 from relguide.flying.guidance.settings import DEFAULT, Settings
+from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.inputs import Range, expect, expect_within, text, truth
 from relguide.planning.limits import (
@@ -18,10 +19,12 @@ from relguide.planning.limits import (
     too_close_a_slot,
 )
 from relguide.planning.situation import IntentPiece, expect_bank, expect_distance, expect_intent
-from relguide.units import Metre, MetrePerSecond, Radian, Second
+from relguide.units import DEG, Kilogram, Metre, MetrePerSecond, Radian, Second
 
 ALTITUDES = Range(-500.0, 20_000.0, "m")
 """Where aircraft fly: from below the Dead Sea's shore to where the standard air ends."""
+BANK_IN_RESERVE: Radian = 5.0 * DEG
+"""An autopilot may bank by so much more than its plans turn with, where its type allows it."""
 RANGES = {"x": POSITION, "y": POSITION, "heading": HEADING, "tas": TAS, "altitude": ALTITUDES}
 """What is accepted of an aircraft's numbers, beside its bank."""
 
@@ -80,8 +83,10 @@ class Aircraft:
     altitude: Metre
     """[m]."""
     max_bank: Radian
-    """What its autopilot may use [rad]."""
+    """What its plans turn with [rad]."""
     pilot: Pilot
+    weight: Kilogram = 0.0
+    """[kg]; 0 for the reference weight of its airframe."""
     believed: Airframe | None = None
     """What its guidance believes of the airframe; the truth, if left out."""
 
@@ -95,9 +100,15 @@ class Aircraft:
             value = expect_within(name, getattr(self, name), *accepted)
             object.__setattr__(self, name, value)
         object.__setattr__(self, "max_bank", expect_bank("max_bank", self.max_bank))
+        self.airframe.expect_weight("weight", self.weight)
         expect("pilot", self.pilot, Guided, Declared, Recorded)
         if self.believed is not None:
             expect("believed", self.believed, Airframe)
+
+    @property
+    def autopilot_bank(self) -> Radian:
+        """What its autopilot may use, to stay on a path that turns at `max_bank` [rad]."""
+        return min(self.airframe.max_bank, self.max_bank + BANK_IN_RESERVE)
 
     @property
     def known_airframe(self) -> Airframe:
@@ -149,7 +160,10 @@ class World:
     air: Air = STANDARD_AIR
     """What physics asks."""
     believed_air: Air | None = None
-    """What guidance believes; the same if left out."""
+    """What guidance believes at the start, before it has measured the wind; the truth, if left
+    out."""
+    surveillance: Surveillance = EXACT
+    """How pursuers see their leaders."""
     settings: Settings = DEFAULT
 
     def __post_init__(self) -> None:
@@ -159,6 +173,7 @@ class World:
         expect("air", self.air, Air)
         if self.believed_air is not None:
             expect("believed_air", self.believed_air, Air)
+        expect("surveillance", self.surveillance, Surveillance)
         expect("settings", self.settings, Settings)
         flying = {aircraft.ident: aircraft for aircraft in self.aircraft}
         if len(flying) < len(self.aircraft):
@@ -179,10 +194,21 @@ class World:
         if not isinstance(pursuer.pilot, Guided):
             raise ValueError(f"The pilot of {pursuer.ident!r} must be Guided() to join a leader.")
         fault = envelope_fault(
-            pursuer.airframe, pursuer.altitude, self.air, tas=pursuer.tas, bank=pursuer.max_bank
+            pursuer.airframe,
+            pursuer.altitude,
+            self.air,
+            tas=pursuer.tas,
+            bank=pursuer.max_bank,
+            weight=pursuer.weight,
         )
         if fault:
             raise ValueError(fault)
+
+    @property
+    def perceives(self) -> bool:
+        """Whether guidance has to find out what it knows; if not, it sees the truth."""
+        inexact = self.surveillance.kind != "exact" or self.air.gusts > 0.0
+        return inexact or self.believed_air not in (None, self.air)
 
     def index(self, ident: str) -> int:
         """Which of the aircraft has an ident."""

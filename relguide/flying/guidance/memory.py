@@ -21,6 +21,7 @@ from relguide.kernels.flight.flight_records import Control
 from relguide.kernels.flight.guide import HOLD, Progress
 from relguide.planning.acceptance import Fault
 from relguide.planning.plan import Reason
+from relguide.planning.situation import Wind
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
@@ -63,6 +64,15 @@ class StandingAlert(NamedTuple):
     """When its cause was last seen, flight time [s]."""
 
 
+class OutOfGate(NamedTuple):
+    """How long a pursuer that follows has not been in the gate."""
+
+    since: Second = LONG_AGO
+    """When it left, flight time [s]; `LONG_AGO` while it is in, or does not follow."""
+    said: bool = False
+    """Whether that was said."""
+
+
 class Memory(NamedTuple):
     """What guidance remembers from one second to the next: some are made in each."""
 
@@ -82,6 +92,8 @@ class Memory(NamedTuple):
     """What was known of the leader a second ago."""
     leader_trend: MetrePerSecond
     """How fast the leader changes its speed [m/s²]; 0 if it does not."""
+    leader_rate: MetrePerSecond
+    """The same, however slowly [m/s²]."""
     captured: Radian
     """The leader's heading when capture began [rad]."""
     changed: Second
@@ -99,6 +111,7 @@ class Memory(NamedTuple):
     unable: UnableReason | None
     """Why guidance cannot go on, as was said; `None` if it can."""
     alert: StandingAlert
+    out_of_gate: OutOfGate
     fallbacks: int
     """How often an exact plan took the place of the planner's, for whatever reason."""
     refused: Fault | None
@@ -119,6 +132,14 @@ class Advice:
     slot_open: bool
     to_slot: Metre
     """Distance still to close along the route [m]."""
+    wind: Wind
+    """As it is believed."""
+    margin: Metre
+    """What is kept beside d_min for what is not certain [m]."""
+    along: Metre
+    """How far it is behind D along the route, in capture and follow; negative if too near [m]."""
+    across: Metre
+    """How far to the right of what it tracks [m]."""
     time_to_go: Second
     """Until it joins, by the forecast [s]; 0 where it does not, or has."""
     joined: bool
@@ -142,6 +163,7 @@ def begin(belief: Belief, engagement: Engagement = "engaged") -> Memory:
         expected=known,
         leader=known,
         leader_trend=0.0,
+        leader_rate=0.0,
         captured=belief.leader.heading,
         changed=LONG_AGO,
         announced=None,
@@ -151,6 +173,7 @@ def begin(belief: Belief, engagement: Engagement = "engaged") -> Memory:
         missing=None,
         unable=None,
         alert=StandingAlert(),
+        out_of_gate=OutOfGate(),
         fallbacks=0,
         refused=None,
     )
