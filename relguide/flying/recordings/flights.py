@@ -91,7 +91,10 @@ def choose(flights: Sequence[Flight], wanted: str, source: str) -> RecordedTrack
         several = "has several flights: choose one"
         said = f"has no flight {name!r}" if name else several
         examples = ", ".join(names[:NAMED])
-        raise ValueError(f"{source} {said}. It has {len(names)}, for example {examples}.")
+        raise ValueError(
+            f"{source} {said}. It has {len(names)}, for example {examples}. "
+            "Its callsign names it: callsign=…, on the command line --callsign."
+        )
     if number > len(called):
         raise ValueError(
             f"{source} has {_count(called)} of {name!r}, not {number}: {_listed(called)}."
