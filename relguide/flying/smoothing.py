@@ -142,7 +142,8 @@ def _chain(t: Array, values: Array, max_rate: float, slack: float) -> tuple[Arra
 
 
 def _known(values: Array) -> NDArray[np.bool_]:
-    return np.all(np.isfinite(values), axis=1)
+    known: NDArray[np.bool_] = np.all(np.isfinite(values), axis=1)
+    return known
 
 
 def _drop_repeats(place: Array) -> Array:

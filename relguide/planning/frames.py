@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import atan2
+from math import atan2, hypot
 from typing import Any
 
 import numpy as np
@@ -80,6 +80,5 @@ def middle_of(lat_deg: Floats, lon_deg: Floats) -> LocalPlane:
     """
     lat, lon = lat_deg * DEG, lon_deg * DEG
     x, y, z = np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)
-    x, y, z = float(np.median(x)), float(np.median(y)), float(np.median(z))
-    level = np.hypot(x, y)
-    return LocalPlane(float(np.arctan2(z, level)) / DEG, float(np.arctan2(y, x)) / DEG)
+    ahead, aside, up = float(np.median(x)), float(np.median(y)), float(np.median(z))
+    return LocalPlane(atan2(up, hypot(ahead, aside)) / DEG, atan2(aside, ahead) / DEG)

@@ -1,6 +1,7 @@
 """Files of recorded flights: which reader is theirs."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -81,5 +82,5 @@ def _json(path: Path) -> Any:
         return None
 
 
-def _json_reader(content: Any) -> Any:
+def _json_reader(content: Any) -> Callable[[Any, str], Reports] | None:
     return next((read for fits, read in JSON_READERS if fits(content)), None)

@@ -122,7 +122,7 @@ def _levels(low: float, high: float) -> str:
 def _silences(heard: Array) -> Array:
     """How long nothing was heard, each time that was longer than can be bridged [s]."""
     t = heard[np.all(np.isfinite(heard[:, 1:3]), axis=1), 0]
-    steps = np.diff(t)
+    steps: Array = np.diff(t)
     return steps[steps > MAX_GAP]
 
 
