@@ -84,45 +84,40 @@ def choose(flights: Sequence[Flight], wanted: str, source: str) -> RecordedTrack
     Raises:
         ValueError: if there is no such flight, or none of them makes a track, in a sentence.
     """
+    if not flights:
+        raise ValueError(f"{source} has no reports.")
     name, number = _parted(wanted)
     called = [flight for flight in flights if name.lower() in ("", *_names(flight))]
     names = sorted({flight.name for flight in flights})
     if not called or (not name and len(names) > 1):
-        several = "has several flights: choose one"
-        said = f"has no flight {name!r}" if name else several
-        examples = ", ".join(names[:NAMED])
+        said = f"has no flight {name!r}" if name else "has several flights: choose one"
         raise ValueError(
-            f"{source} {said}. It has {len(names)}, for example {examples}. "
+            f"{source} {said}. It has {len(names)}, for example {', '.join(names[:NAMED])}. "
             "Its callsign names it: callsign=…, on the command line --callsign."
         )
     if number > len(called):
         raise ValueError(
             f"{source} has {_count(called)} of {name!r}, not {number}: {_listed(called)}."
         )
-    chosen = called[number - 1 : number] if number else called
-    tracks, refusals = [], list[ValueError]()
-    for flight in chosen:
+    tracks, refusals = list[tuple[int, RecordedTrack]](), list[ValueError]()
+    for count, flight in enumerate(called, 1):
+        if number not in (0, count):
+            continue
         about = f"{flight.name} of {source}" if len(names) > 1 else source
         try:
-            tracks.append(track_of(flight.numbers, flight.name, flight.aircraft_type, about))
+            track = track_of(flight.numbers, flight.name, flight.aircraft_type, about)
+            tracks.append((count, track))
         except ValueError as refusal:
             refusals.append(refusal)
     if not tracks:
         raise refusals[0]
-    longest = max(tracks, key=lambda track: track.duration)
+    taken, longest = max(tracks, key=lambda one: one[1].duration)
     if len(called) == 1:
         return longest
-    # which of them it was: the one whose reports hold its start
-    taken = next(
-        count
-        for count, flight in enumerate(called, 1)
-        if flight in chosen and flight.numbers[0, 0] <= longest.start <= flight.numbers[-1, 0]
-    )
-    why = "" if number else ", the longest"
-    other = called[0].name or name
+    why, known = "" if number else ", the longest", called[0].name
     said = (
-        f"{other} is {_count(called)}: {_listed(called)}. Flight {taken} is flown{why}; "
-        f"{other}/1 to {other}/{len(called)} name them."
+        f"{known} is {_count(called)}: {_listed(called)}. Flight {taken} is flown{why}; "
+        f"{known}/1 to {known}/{len(called)} name them."
     )
     return replace(longest, taken=f"{said} {longest.taken}")
 

@@ -37,17 +37,15 @@ def read_records(content: Any, source: str) -> Reports:
     """
     try:
         columns = _columns(content)
-        missing = [name for name in NEEDED if name not in columns]
-        if missing:
-            found = ", ".join(columns)
-            raise ValueError(f"{source} has no {missing[0]}. Found: {found}.")
-        count = len(columns["timestamp"])
-        nothing = [None] * count
+        nothing = [None] * len(columns["timestamp"])
         # as floats, a missing value (None) becomes NaN
         numbers = np.array([columns.get(name, nothing) for name in COLUMNS], dtype=np.float64).T
         texts = [[str(cell or "") for cell in columns.get(name, nothing)] for name in TEXTS]
-    except (TypeError, AttributeError, OverflowError):
+    except (TypeError, AttributeError, KeyError, OverflowError, ValueError):
         raise ValueError(f"{source} is no table of reports as traffic writes them.") from None
+    missing = [name for name in NEEDED if name not in columns]
+    if missing:
+        raise ValueError(f"{source} has no {missing[0]}. Found: {', '.join(columns)}.")
     if not np.all(np.isfinite(numbers[:, 0])):
         raise ValueError(f"{source} has reports without a time.")
     numbers[:, 0] = _seconds(numbers[:, 0])

@@ -63,7 +63,7 @@ def _path(collection: str) -> Path:
             f"Recorded tracks come with the package traffic, which is not installed: {INSTALL}"
         ) from None
     folder = Path(str(package.locate_file(SAMPLES)))
-    known = {file.relative_to(folder).as_posix(): file for file in folder.glob(f"*/*{ENDING}")}
+    known = {file.relative_to(folder).as_posix(): file for file in folder.rglob(f"*{ENDING}")}
     for name, file in known.items():
         if collection in (name.removesuffix(ENDING), file.name.removesuffix(ENDING)):
             return file
