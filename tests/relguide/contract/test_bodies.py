@@ -259,3 +259,10 @@ def test_both_aircraft_are_placed_alike() -> None:
 
 def test_both_ways_at_once_are_refused() -> None:
     assert problem_of(change("pursuer.lat_deg", 1.0))[0] == "pursuer.lon_deg"
+
+
+def test_a_byte_order_mark_before_json_is_passed_over() -> None:
+    text = json.dumps(BODY)
+    known = situation_from_json(text)
+    assert situation_from_json(b"\xef\xbb\xbf" + text.encode()) == known
+    assert situation_from_json("\ufeff" + text) == known

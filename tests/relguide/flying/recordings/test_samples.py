@@ -83,7 +83,7 @@ def test_all_airborne_flights_of_the_collection_lead_by_their_names() -> None:
         if number % 40 == 0:
             *_, last = fly(replace(scenario, duration_limit=60.0), plan, sample_period=1.0)
             assert last.kind == "flight_ended"
-    # a helicopter
+    # the one that never flies so fast
     assert refused == {"FHMAC": "FHMAC of quickstart never flies 30 s faster than 55 m/s."}
 
 
