@@ -113,7 +113,8 @@ def scenario_behind(
     return Scenario(
         name="recorded_leader",
         title=TITLES["recorded_leader"],
-        description=DESCRIPTIONS["recorded_leader"],
+        description="The leader flies as it was recorded, its intent unknown; the pursuer begins "
+        f"{behind / 1000.0:g} km behind it and {abeam / 1000.0:g} km to its left. {track.taken}",
         situation=Situation(
             pursuer=Pursuer(
                 x=first.x - behind * along_x - abeam * along_y,
