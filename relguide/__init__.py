@@ -39,6 +39,7 @@ if typing.TYPE_CHECKING:
     from relguide.flying.documents import PlanProposed as PlanProposed
     from relguide.flying.documents import PlanRefused as PlanRefused
     from relguide.flying.documents import PlanUnavailable as PlanUnavailable
+    from relguide.flying.documents import PromiseChanged as PromiseChanged
     from relguide.flying.documents import Sample as Sample
     from relguide.flying.documents import SeparationLost as SeparationLost
     from relguide.flying.documents import Unable as Unable
@@ -129,6 +130,7 @@ _HOMES = {
     "PlanProposed": "relguide.flying.documents",
     "PlanRefused": "relguide.flying.documents",
     "PlanUnavailable": "relguide.flying.documents",
+    "PromiseChanged": "relguide.flying.documents",
     "Sample": "relguide.flying.documents",
     "SeparationLost": "relguide.flying.documents",
     "Unable": "relguide.flying.documents",
@@ -244,6 +246,7 @@ __all__ = [
     "PlanUnavailable",
     "Planner",
     "Pose",
+    "PromiseChanged",
     "Pursuer",
     "PursuerHeading",
     "Reason",

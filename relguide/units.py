@@ -15,6 +15,7 @@ G0 = 9.80665
 """Standard gravity g [m/s²]."""
 
 # A field's unit is part of its type, so that `contract/wire.py` can put it into its JSON name.
+Kilogram = Annotated[float, "kg"]
 Metre = Annotated[float, "m"]
 Second = Annotated[float, "s"]
 Millisecond = Annotated[float, "ms"]

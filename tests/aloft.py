@@ -4,7 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from relguide.flying.air import STANDARD_AIR
 from relguide.flying.airframe import Airframe, airframe
+from relguide.flying.envelope import FL310
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Body, Control, Drift, Limits
@@ -29,14 +31,18 @@ def limits_of(
     min_tas: MetrePerSecond = 100.0,
     max_tas: MetrePerSecond = 280.0,
 ) -> Limits:
-    """What a type can do, by an autopilot that may bank so much."""
+    """What a type can do at FL310, by an autopilot that may bank so much."""
+    climb, idle, brakes, induced = kind.energy(FL310, STANDARD_AIR)
     return Limits(
         max_bank,
         kind.max_roll_rate,
         kind.roll_time_constant,
         kind.speed_time_constant,
-        kind.max_acceleration,
-        kind.max_deceleration,
+        *climb,
+        *idle,
+        brakes,
+        induced,
+        1.0,
         min_tas,
         max_tas,
     )
@@ -84,7 +90,7 @@ def fly(
 
 FAR_AWAY = np.array([[0.0, 1e7, 1e7, 0.0, 0.0, 200.0, 0.0], [2e2, 1e7, 1e7, 0.0, 0.0, 200.0, 1.0]])
 """Marks of a leader that is nowhere near: nothing is captured."""
-GAINS = DEFAULT.gains(A306.idle_deceleration)
+GAINS = DEFAULT.gains(0.6)
 
 
 def tracking(

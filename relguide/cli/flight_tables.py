@@ -18,6 +18,7 @@ from relguide.flying.documents import (
     PlanChanged,
     PlanRefused,
     PlanUnavailable,
+    PromiseChanged,
     SeparationLost,
     Unable,
 )
@@ -62,6 +63,8 @@ def _event(event: SummaryEvent) -> tuple[str, str, str]:
             what = "plan refused"
         case ModeChanged(mode=mode):
             what = mode
+        case PromiseChanged(promised=promised):
+            what = f"joins in {clock(promised)}"
         case LeaderChanged(change=change):
             what = f"leader: {change.replace('_', ' ')}"
         case Alert(level=level, subject=subject, cleared=cleared):
@@ -82,11 +85,14 @@ def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
             "joined": f"after {clock(figures['join_time_s'])}" if figures["joined"] else "no",
             "planned at engagement": clock(figures["planned_time_s"]),
             "promised at engagement": clock(figures["promised_s"]),
+            "over the optimum": _over_optimum(figures["over_optimum_s"]),
             "least separation": miles(figures["least_separation_m"]),
             "separation lost": _losses(figures["losses"]),
             "heading swing": f"{figures['heading_swing_deg']:.0f}°",
             "bank reversals": f"{figures['bank_reversals']}",
             "new plans": f"{figures['replans']}, {figures['replans_announced']} announced",
+            "while following": f"within {miles(figures['along_error_m'])} along, "
+            f"{miles(figures['across_error_m'])} across",
             "planned by": _planners(figures["plans_by"]),
             "fallbacks": f"{figures['fallbacks']}",
             "flown": f"{figures['track_nm']:.1f} NM over the ground",
@@ -95,6 +101,12 @@ def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
         speed = figures["simulated_s"] / max(figures["wall_s"], 1e-9)
         rows["computed in"] = f"{figures['wall_s']:.2f} s, {speed:,.0f} times as fast as it flies"
     return rows
+
+
+def _over_optimum(seconds: float | None) -> str:
+    if seconds is None:
+        return "not known: no plan from the start reaches the slot"
+    return f"{abs(seconds):.0f} s {'sooner' if seconds < 0.0 else 'later'}"
 
 
 def _planners(plans_by: Mapping[str, int]) -> str:

@@ -21,6 +21,7 @@ from relguide.flying.documents import (
     PlanProposed,
     PlanRefused,
     PlanUnavailable,
+    PromiseChanged,
     Sample,
     SeparationLost,
     Unable,
@@ -35,6 +36,7 @@ SummaryEvent = (
     | PlanUnavailable
     | PlanRefused
     | ModeChanged
+    | PromiseChanged
     | Alert
     | Unable
     | SeparationLost
@@ -90,6 +92,7 @@ def summarize(documents: Iterable[Document]) -> FlightSummary:
                     | PlanUnavailable()
                     | PlanRefused()
                     | ModeChanged()
+                    | PromiseChanged()
                     | Alert()
                     | Unable()
                     | SeparationLost()
@@ -137,6 +140,9 @@ def figures(ended: FlightEnded) -> dict[str, Any]:
         "fallbacks": result.fallbacks,
         "track_nm": result.track / NM,
         "simulated_s": ended.t,
+        "over_optimum_s": result.join_time - result.optimum if result.optimum else None,
+        "along_error_m": result.along_error,
+        "across_error_m": result.across_error,
         "losses": [
             {
                 "t_s": loss.t,

@@ -14,8 +14,9 @@ the same impact pressure at sea level in the standard atmosphere.
 """
 
 from dataclasses import dataclass
-from math import exp, sqrt
+from math import exp, log, sqrt
 
+from relguide.flying.wind_profile import WindProfile
 from relguide.planning.inputs import expect, expect_within
 from relguide.planning.reprs import as_code
 from relguide.planning.wind import CALM, Wind
@@ -41,6 +42,8 @@ HIGHEST_ALTITUDE: Metre = 20_000.0
 """Highest accepted altitude [m]: above it the standard atmosphere grows warmer."""
 MAX_ISA_DEVIATION = 60.0
 """Largest accepted |ΔT| [K]: beyond the coldest and the hottest air on record."""
+MAX_GUSTS: MetrePerSecond = 10.0
+"""Largest accepted σ of gusts [m/s]: severe turbulence of MIL-F-8785C has 6.4 m/s."""
 
 _TROPOPAUSE_TEMPERATURE = SEA_LEVEL_TEMPERATURE - LAPSE_RATE * TROPOPAUSE
 _PRESSURE_EXPONENT = G0 / (GAS_CONSTANT * LAPSE_RATE)
@@ -54,9 +57,13 @@ class Air:
     """The air as it is, or as somebody believes it to be."""
 
     wind: Wind = CALM
-    """The same everywhere."""
+    """The same everywhere, unless there is a profile."""
+    profile: WindProfile | None = None
+    """The wind by altitude, in place of `wind`."""
     isa_deviation: float = 0.0
     """How much warmer than the standard atmosphere, ΔT [K], at every altitude."""
+    gusts: MetrePerSecond = 0.0
+    """σ of gusts along and across an aircraft's heading [m/s], as in `kernels/flight/gusts.py`."""
 
     __repr__ = as_code
 
@@ -67,9 +74,15 @@ class Air:
             "isa_deviation", self.isa_deviation, -MAX_ISA_DEVIATION, MAX_ISA_DEVIATION, "K"
         )
         object.__setattr__(self, "isa_deviation", deviation)
+        gusts = expect_within("gusts", self.gusts, 0.0, MAX_GUSTS, "m/s")
+        object.__setattr__(self, "gusts", gusts)
+        if self.profile is not None:
+            expect("profile", self.profile, WindProfile)
+            if self.wind != CALM:
+                raise ValueError("wind must be left out where a profile gives it by altitude.")
 
     def wind_at(self, x: Metre, y: Metre, altitude: Metre, t: Second) -> Wind:
-        """The wind at a place and a time: the same everywhere and always.
+        """The wind at a place and a time, without gusts: only altitude makes a difference.
 
         Args:
             x: east over the ground [m].
@@ -77,8 +90,8 @@ class Air:
             altitude: pressure altitude [m].
             t: since the flight began [s].
         """
-        del x, y, altitude, t
-        return self.wind
+        del x, y, t
+        return self.wind if self.profile is None else self.profile.at(altitude)
 
     def temperature(self, altitude: Metre) -> float:
         """Static air temperature T [K]."""
@@ -111,17 +124,20 @@ class Air:
         return SEA_LEVEL_SOUND_SPEED * _mach_from_impact(impact, SEA_LEVEL_PRESSURE)
 
     def with_error(self, *, wind_error: Wind = CALM, isa_error: float = 0.0) -> "Air":
-        """The air as somebody believes it to be who is wrong by so much.
+        """The air as somebody believes it to be who is wrong by so much, and expects no gusts.
 
         Args:
-            wind_error: what is added to the wind.
+            wind_error: what is added to the wind, at every altitude.
             isa_error: what is added to ΔT [K].
 
         Raises:
             ValueError: where the sum is a wind or a temperature that no atmosphere has.
         """
+        isa_deviation = self.isa_deviation + isa_error
+        if self.profile is not None:
+            return Air(profile=self.profile.shifted(wind_error), isa_deviation=isa_deviation)
         wind = Wind(east=self.wind.east + wind_error.east, north=self.wind.north + wind_error.north)
-        return Air(wind=wind, isa_deviation=self.isa_deviation + isa_error)
+        return Air(wind=wind, isa_deviation=isa_deviation)
 
 
 STANDARD_AIR = Air()
@@ -151,6 +167,15 @@ def pressure(altitude: Metre) -> float:
         return _TROPOPAUSE_PRESSURE * exp(-G0 * above / (GAS_CONSTANT * _TROPOPAUSE_TEMPERATURE))
     ratio = standard_temperature(altitude) / SEA_LEVEL_TEMPERATURE
     return SEA_LEVEL_PRESSURE * float(ratio**_PRESSURE_EXPONENT)
+
+
+def pressure_altitude(static: float) -> Metre:
+    """The altitude at which the static pressure is so much [Pa]: the inverse of `pressure`."""
+    if static < _TROPOPAUSE_PRESSURE:
+        scale = GAS_CONSTANT * _TROPOPAUSE_TEMPERATURE / G0
+        return TROPOPAUSE + scale * log(_TROPOPAUSE_PRESSURE / static)
+    ratio = float((static / SEA_LEVEL_PRESSURE) ** (1.0 / _PRESSURE_EXPONENT))
+    return (1.0 - ratio) * SEA_LEVEL_TEMPERATURE / LAPSE_RATE
 
 
 def _impact_pressure(mach: float, static: float) -> float:

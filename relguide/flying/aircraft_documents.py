@@ -170,6 +170,13 @@ class LinkResult:
     track: Metre
     """Distance flown over the ground until joined."""
     losses: tuple[Loss, ...]
+    optimum: Second = 0.0
+    """Time to converge of the fastest plan from the start, with the bank that was asked for and all
+    that the leader was to fly; 0 where there is none, or the leader is recorded."""
+    along_error: Metre = 0.0
+    """Largest distance along the route from where it should be, while it followed."""
+    across_error: Metre = 0.0
+    """Largest distance beside the route, while it followed."""
 
 
 class _HasIdent(Protocol):

@@ -7,21 +7,32 @@ one's own.
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
+from math import inf
 from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
 
-from relguide.flying.air import HIGHEST_ALTITUDE, STANDARD_AIR, Air
-from relguide.planning.inputs import expect_within, text
+from relguide.flying.air import GAMMA, HIGHEST_ALTITUDE, STANDARD_AIR, Air, pressure
+from relguide.flying.performance import (
+    Thrust,
+    UsableLift,
+    lift_square,
+    load_factor,
+    parabola_through,
+    root,
+)
+from relguide.planning.inputs import expect, expect_within, number, text
 from relguide.units import (
     DEG,
     FT,
+    G0,
     KT,
+    Kilogram,
     Metre,
     MetrePerSecond,
     Radian,
@@ -31,12 +42,28 @@ from relguide.units import (
 
 
 class TasRange(NamedTuple):
-    """The true airspeeds that can be flown at one level."""
+    """The true airspeeds that can be flown at one level; none where the least is the larger."""
 
     least: MetrePerSecond
-    """Slowest [m/s]."""
+    """Slowest [m/s]; infinite where no speed carries the weight."""
     most: MetrePerSecond
-    """Fastest [m/s]."""
+    """Fastest [m/s]; 0 where no speed can be kept."""
+
+
+class Energy(NamedTuple):
+    """How an aircraft of one weight speeds up and slows down at one level.
+
+    V̇ = c₀ + c₁ V + c₂ V² − K n²/V²          thrust less zero-lift drag; drag of the lift
+    """
+
+    climb: tuple[float, float, float]
+    """c at the most thrust for a climb [m/s², 1/s, 1/m]."""
+    idle: tuple[float, float, float]
+    """c at idle."""
+    brakes: float
+    """What speed brakes take off c₂ [1/m]."""
+    induced: float
+    """K [m³/s⁴]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,14 +82,20 @@ class Airframe:
     """Roll mode: the roll rate's lag behind the ailerons [s]."""
     speed_time_constant: Second
     """Lag of the autothrust: how fast it goes for the commanded speed when not at a limit [s]."""
-    max_acceleration: MetrePerSecond
-    """Along the path in level flight, at climb thrust [m/s²]."""
-    idle_deceleration: MetrePerSecond
-    """Along the path in level flight, at idle thrust without speed brakes [m/s²], > 0."""
-    max_deceleration: MetrePerSecond
-    """The same with all that brakes in flight [m/s²], > 0."""
-    least_cas: MetrePerSecond
-    """Lowest manoeuvring speed without flaps, calibrated [m/s]."""
+    least_weight: Kilogram
+    """As light as it flies [kg]."""
+    reference_weight: Kilogram
+    """Of an aircraft of which nothing else is said [kg]."""
+    most_weight: Kilogram
+    """As heavy as it flies [kg]."""
+    wing_area: float
+    """S [m²]."""
+    zero_lift_drag: float
+    """C_D0, clean."""
+    induced_drag: float
+    """k of C_D = C_D0 + k C_L²."""
+    speed_brake_drag: float
+    """What speed brakes add to C_D0; 0 for an aircraft that has none."""
     v_mo: MetrePerSecond
     """Maximum operating speed V_MO, calibrated [m/s]."""
     m_mo: float
@@ -73,6 +106,12 @@ class Airframe:
     """Highest rate of climb [m/s]."""
     max_descent: MetrePerSecond
     """Highest rate of descent [m/s], > 0."""
+    usable_lift: UsableLift
+    """With what is kept from stall and buffet."""
+    thrust: Thrust
+    """Of all engines."""
+    thrust_share: float = 1.0
+    """How much of `thrust` this aircraft gives: 1 by its type."""
 
     def __post_init__(self) -> None:
         """Refuse what could not fly, and what is likely given in another unit."""
@@ -92,39 +131,159 @@ class Airframe:
                 quantity.si_unit,
             )
             object.__setattr__(self, quantity.field, value)
-        if self.idle_deceleration > self.max_deceleration:
+        expect("usable_lift", self.usable_lift, UsableLift)
+        expect("thrust", self.thrust, Thrust)
+        share = expect_within("thrust_share", self.thrust_share, 0.1, 10.0, "")
+        object.__setattr__(self, "thrust_share", share)
+        if not self.least_weight <= self.reference_weight <= self.most_weight:
             raise ValueError(
-                f"idle_deceleration ({self.idle_deceleration:g} m/s²) must not exceed"
-                f" max_deceleration ({self.max_deceleration:g} m/s²): brakes add to idle thrust."
+                f"reference_weight ({self.reference_weight:,.0f} kg) must lie in least_weight …"
+                f" most_weight, {self.weights}."
             )
-        if self.least_cas >= self.v_mo:
+        slow, fast = self._mach_range_by_lift(self.ceiling, self.reference_weight, 1.0)
+        if slow >= fast:
             raise ValueError(
-                f"least_cas ({self.least_cas / KT:g} kt) must be below"
-                f" v_mo ({self.v_mo / KT:g} kt)."
-            )
-        # at one CAS the Mach number grows on the way up, whatever the temperature
-        slowest = STANDARD_AIR.mach(
-            STANDARD_AIR.tas_from_cas(self.least_cas, self.ceiling), self.ceiling
-        )
-        if slowest >= self.m_mo:
-            raise ValueError(
-                f"ceiling ({self.ceiling / FT:,.0f} ft) must be lower: least_cas"
-                f" ({self.least_cas / KT:g} kt) is M {slowest:.2f} up there, and m_mo is"
-                f" {self.m_mo:g}."
+                f"ceiling ({self.ceiling / FT:,.0f} ft) must be lower: no speed within v_mo"
+                f" ({self.v_mo / KT:g} kt) and m_mo ({self.m_mo:g}) carries"
+                f" {self.reference_weight:,.0f} kg up there."
             )
 
-    def tas_range(self, altitude: Metre, air: Air) -> TasRange:
-        """The true airspeeds that can be flown at a level: never empty up to the ceiling.
+    @property
+    def weights(self) -> str:
+        """Between which weights it flies, in words."""
+        return f"{self.least_weight:,.0f} … {self.most_weight:,.0f} kg"
+
+    def expect_weight(self, name: str, weight: Kilogram) -> Kilogram:
+        """The weight, if the type flies at it; 0 stands for its reference weight."""
+        if number(name, weight) == 0.0:
+            return self.reference_weight
+        if not self.least_weight <= weight <= self.most_weight:
+            raise ValueError(
+                f"{name} must lie in {self.weights} for the {self.designator}, or be 0 for its"
+                f" reference weight, not {weight:,.0f} kg."
+            )
+        return weight
+
+    def tas_range(
+        self, altitude: Metre, air: Air, weight: Kilogram = 0.0, bank: Radian = 0.0
+    ) -> TasRange:
+        """The true airspeeds that can be flown at a level.
 
         Args:
             altitude: pressure altitude [m].
             air: its temperature turns Mach number and calibrated airspeed into true airspeed.
+            weight: [kg]; 0 for the reference weight.
+            bank: that the lift must allow for [rad]; thrust need not, since turns end.
 
         Returns:
-            From `least_cas` to the lower of `v_mo` and `m_mo` there [m/s].
+            From what lift and thrust need to what `v_mo`, `m_mo`, lift and thrust allow [m/s].
         """
-        most = min(air.tas_from_cas(self.v_mo, altitude), air.tas_from_mach(self.m_mo, altitude))
-        return TasRange(least=air.tas_from_cas(self.least_cas, altitude), most=most)
+        weight = weight or self.reference_weight
+        slow, fast = _mach_range(self, altitude, weight, load_factor(bank))
+        sound = air.sound_speed(altitude)
+        return TasRange(slow * sound, fast * sound)
+
+    def excess_acceleration(
+        self,
+        altitude: Metre,
+        tas: MetrePerSecond,
+        air: Air,
+        weight: Kilogram = 0.0,
+        bank: Radian = 0.0,
+    ) -> float:
+        """What climb thrust gives along the path in level flight [m/s²]; negative if too little."""
+        mach = air.mach(tas, altitude)
+        weight = weight or self.reference_weight
+        return self._excess(altitude, mach, weight, load_factor(bank)) / weight
+
+    def idle_deceleration(
+        self,
+        altitude: Metre,
+        tas: MetrePerSecond,
+        air: Air,
+        weight: Kilogram = 0.0,
+        bank: Radian = 0.0,
+    ) -> float:
+        """How fast it slows down in level flight at idle, without speed brakes [m/s²]."""
+        mach = air.mach(tas, altitude)
+        weight = weight or self.reference_weight
+        idle = self.thrust_share * self.thrust.idle_at(altitude, mach)
+        return (self._drag(altitude, mach, weight, load_factor(bank)) - idle) / weight
+
+    def energy(self, altitude: Metre, air: Air, weight: Kilogram = 0.0) -> Energy:
+        """Both for all speeds that can be flown, thrust as a parabola of the speed."""
+        weight = weight or self.reference_weight
+        sound, per_area = air.sound_speed(altitude), 0.5 * air.density(altitude) / weight
+        slow, fast = _mach_range(self, altitude, weight, 1.0)
+        share, zero_lift = (
+            self.thrust_share / weight,
+            per_area * self.wing_area * self.zero_lift_drag,
+        )
+
+        def pushed(thrust: Callable[[Metre, float], float]) -> tuple[float, float, float]:
+            c0, c1, c2 = parabola_through(
+                lambda v: share * thrust(altitude, v / sound), slow * sound, fast * sound
+            )
+            return c0, c1, c2 - zero_lift
+
+        return Energy(
+            climb=pushed(self.thrust.climb_at),
+            idle=pushed(self.thrust.idle_at),
+            brakes=per_area * self.wing_area * self.speed_brake_drag,
+            induced=self.induced_drag * G0 * G0 / (per_area * self.wing_area),
+        )
+
+    def _drag(self, altitude: Metre, mach: float, weight: Kilogram, load: float) -> float:
+        """D of level flight [N]."""
+        static = pressure(altitude)
+        lift = lift_square(weight, load, static, self.wing_area) / (mach * mach)
+        area = 0.5 * GAMMA * static * mach * mach * self.wing_area
+        return (self.zero_lift_drag + self.induced_drag * lift * lift) * area
+
+    def _excess(self, altitude: Metre, mach: float, weight: Kilogram, load: float) -> float:
+        """Climb thrust less drag [N]."""
+        climb = self.thrust_share * self.thrust.climb_at(altitude, mach)
+        return climb - self._drag(altitude, mach, weight, load)
+
+    def _mach_range_by_lift(
+        self, altitude: Metre, weight: Kilogram, load: float
+    ) -> tuple[float, float]:
+        """Mach numbers that lift, V_MO and M_MO allow."""
+        most = min(self.m_mo, STANDARD_AIR.mach(
+            STANDARD_AIR.tas_from_cas(self.v_mo, altitude), altitude
+        ))  # fmt: skip
+        needed = lift_square(weight, load, pressure(altitude), self.wing_area)
+        carry = self.usable_lift.machs_that_carry(needed)
+        return (inf, most) if carry is None else (carry[0], min(carry[1], most))
+
+
+@lru_cache(maxsize=4096)
+def _mach_range(
+    airframe: Airframe, altitude: Metre, weight: Kilogram, load: float
+) -> tuple[float, float]:
+    """Mach numbers that can be flown: within what lift allows, those that thrust can keep."""
+    slow, fast = airframe._mach_range_by_lift(altitude, weight, load)
+    if slow >= fast:
+        return inf, fast
+
+    def spare(mach: float) -> float:
+        return airframe._excess(altitude, mach, weight, 1.0)
+
+    if spare(slow) >= 0.0 and spare(fast) >= 0.0:
+        return slow, fast
+    machs = [slow + (fast - slow) * k / MACH_STEPS for k in range(MACH_STEPS + 1)]
+    best = max(machs, key=spare)
+    if spare(best) < 0.0:
+        return slow, 0.0
+    if spare(slow) < 0.0:
+        slow = root(spare, best, slow)
+    if spare(fast) < 0.0:
+        fast = root(spare, best, fast)
+    return slow, fast
+
+
+MACH_STEPS = 24
+"""Places where thrust is compared with drag, to find one where it is enough."""
 
 
 class Quantity(NamedTuple):
@@ -152,10 +311,13 @@ QUANTITIES = (
     Quantity("max_roll_rate_degps", "max_roll_rate", DEG, 0.5, 200.0, "deg/s", "rad/s"),
     Quantity("roll_time_constant_s", "roll_time_constant", 1.0, 0.01, 5.0, "s", "s"),
     Quantity("speed_time_constant_s", "speed_time_constant", 1.0, 0.5, 60.0, "s", "s"),
-    Quantity("max_acceleration_mps2", "max_acceleration", 1.0, 0.01, 10.0, "m/s²", "m/s²"),
-    Quantity("idle_deceleration_mps2", "idle_deceleration", 1.0, 0.01, 10.0, "m/s²", "m/s²"),
-    Quantity("max_deceleration_mps2", "max_deceleration", 1.0, 0.01, 10.0, "m/s²", "m/s²"),
-    Quantity("least_cas_kt", "least_cas", KT, 30.0, 400.0, "kt", "m/s"),
+    Quantity("least_weight_kg", "least_weight", 1.0, 100.0, 1e6, "kg", "kg"),
+    Quantity("reference_weight_kg", "reference_weight", 1.0, 100.0, 1e6, "kg", "kg"),
+    Quantity("most_weight_kg", "most_weight", 1.0, 100.0, 1e6, "kg", "kg"),
+    Quantity("wing_area_m2", "wing_area", 1.0, 5.0, 2_000.0, "m²", "m²"),
+    Quantity("zero_lift_drag", "zero_lift_drag", 1.0, 0.001, 0.2, "", ""),
+    Quantity("induced_drag", "induced_drag", 1.0, 0.001, 0.5, "", ""),
+    Quantity("speed_brake_drag", "speed_brake_drag", 1.0, 0.0, 0.5, "", ""),
     Quantity("v_mo_kt", "v_mo", KT, 50.0, 600.0, "kt", "m/s"),
     Quantity("m_mo", "m_mo", 1.0, 0.1, 0.99, "", ""),
     Quantity("ceiling_ft", "ceiling", FT, 1_000.0, HIGHEST_ALTITUDE / FT, "ft", "m"),
@@ -163,7 +325,16 @@ QUANTITIES = (
     Quantity("max_descent_fpm", "max_descent", FT / 60.0, 50.0, 30_000.0, "ft/min", "m/s"),
 )
 """Every number of an airframe, in the order of the files."""
-KEYS = ("designator", "name", *(quantity.key for quantity in QUANTITIES))
+TABLES = (
+    "usable_lift_machs",
+    "usable_lift",
+    "thrust_levels_ft",
+    "thrust_machs",
+    "climb_thrust_kn",
+    "idle_thrust_kn",
+)
+"""Every table of an airframe, in the order of the files."""
+KEYS = ("designator", "name", *(quantity.key for quantity in QUANTITIES), *TABLES)
 """Every key of a file, but for its sources."""
 
 _TYPES = files("relguide.flying").joinpath("types")
@@ -236,8 +407,21 @@ def _parse_airframe(content: str, file: str) -> Airframe:
         )
         for quantity in QUANTITIES
     }
+    rows = {key: _list(f"{file}: {key}", _require(table, key, file)) for key in TABLES}
     try:
-        return Airframe(designator=designator, name=name, **numbers)
+        lift = UsableLift(
+            machs=_numbers("usable_lift_machs", rows["usable_lift_machs"]),
+            lift=_numbers("usable_lift", rows["usable_lift"]),
+        )
+        thrust = Thrust(
+            levels=_numbers("thrust_levels_ft", rows["thrust_levels_ft"], FT),
+            machs=_numbers("thrust_machs", rows["thrust_machs"]),
+            climb=_rows("climb_thrust_kn", rows["climb_thrust_kn"]),
+            idle=_rows("idle_thrust_kn", rows["idle_thrust_kn"]),
+        )
+        return Airframe(
+            designator=designator, name=name, usable_lift=lift, thrust=thrust, **numbers
+        )
     except ValueError as error:
         raise ValueError(f"{file}: {error}") from None
 
@@ -252,7 +436,7 @@ def _require(table: Mapping[str, object], key: str, file: str) -> object:
             wanted = f"a number of {quantity.low:g} … {quantity.high:g}{unit}"
             break
     else:
-        wanted = "a text"
+        wanted = "a list" if key in TABLES else "a text"
     raise ValueError(f"{file}: {key} is missing; it must be {wanted}.")
 
 
@@ -263,3 +447,20 @@ def _refuse_unknown(table: Mapping[str, object], place: str) -> None:
             near = get_close_matches(key, KEYS, n=1)
             right = f"did you mean {near[0]}?" if near else f"the keys are {', '.join(KEYS)}."
             raise ValueError(f"{place}: {key} is not a key of an airframe; {right}")
+
+
+def _list(name: str, value: object) -> list[object]:
+    """The value, if it is a list."""
+    if not isinstance(value, list):
+        raise ValueError(f"{name} must be a list, not {value!r}.")
+    return value
+
+
+def _numbers(name: str, values: list[object], scale: float = 1.0) -> tuple[float, ...]:
+    """A list of numbers, in SI units."""
+    return tuple(scale * number(name, value) for value in values)
+
+
+def _rows(name: str, rows: list[object]) -> tuple[tuple[float, ...], ...]:
+    """A list of lists of kilonewtons [N]."""
+    return tuple(_numbers(name, _list(name, row), 1_000.0) for row in rows)

@@ -18,17 +18,19 @@ from relguide.planning.situation import (
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, NM
 
-DISPERSED = (
-    "max_roll_rate",
-    "roll_time_constant",
-    "speed_time_constant",
-    "max_acceleration",
-    "idle_deceleration",
-    "max_deceleration",
-)
-"""Constants of an airframe that differ from one aircraft of its type to the next."""
+DISPERSED = {
+    "max_roll_rate": 1.0,
+    "roll_time_constant": 1.0,
+    "speed_time_constant": 1.0,
+    "thrust_share": 0.3,
+    "zero_lift_drag": 0.3,
+    "induced_drag": 0.3,
+    "speed_brake_drag": 1.0,
+}
+"""Constants of an airframe that differ from one aircraft of its type to the next, each with how
+much, beside the others: engines and wings age little, and speed is the difference of the two."""
 SHARE = 0.1
-"""By how much of themselves they do at most."""
+"""By how much of themselves they do at most; thrust and drag by 3 %."""
 
 
 def disperse(airframe: Airframe, seed: int, share: float = SHARE) -> Airframe:
@@ -37,15 +39,15 @@ def disperse(airframe: Airframe, seed: int, share: float = SHARE) -> Airframe:
     Args:
         airframe: the type.
         seed: of the random numbers; 0 gives the type itself.
-        share: each constant is drawn evenly within ± this share of itself.
+        share: each constant is drawn evenly within ± this share of itself, as `DISPERSED` says.
     """
     if seed == 0:
         return airframe
     rng = Random(seed)
     drawn = {
-        name: getattr(airframe, name) * rng.uniform(1.0 - share, 1.0 + share) for name in DISPERSED
+        name: getattr(airframe, name) * (1.0 + part * rng.uniform(-share, share))
+        for name, part in DISPERSED.items()
     }
-    drawn["idle_deceleration"] = min(drawn["idle_deceleration"], drawn["max_deceleration"])
     return replace(airframe, **drawn)
 
 

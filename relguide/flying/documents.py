@@ -22,6 +22,7 @@ from relguide.flying.aircraft_documents import (
     WindCard,
 )
 from relguide.flying.engagement import Engagement as Engagement
+from relguide.flying.guidance.announcements import AlertSubject as AlertSubject
 from relguide.flying.guidance.announcements import PlanReason as PlanReason
 from relguide.flying.guidance.announcements import UnableReason as UnableReason
 from relguide.flying.modes import Mode as Mode
@@ -37,11 +38,6 @@ from relguide.units import Metre, Radian, Second
 
 LeaderChange = Literal["heading", "speed", "intent_received", "intent_withdrawn", "intent_broken"]
 """What is new of a leader; intent_broken: it does not fly what it declared."""
-AlertSubject = Literal["separation", "speed", "data", "geometry"]
-"""separation: d_min will be lost; speed: the leader flies at a speed that cannot be matched; data:
-what is known of the leader is old or contradicts itself; geometry: it flies where it cannot be
-followed, as when it turns back."""
-
 EndReason = Literal["joined", "time_over", "recording_over", "plane_left"]
 """Why a flight ends."""
 
@@ -198,6 +194,19 @@ class ModeChanged:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class PromiseChanged:
+    """The pursuer will join at another time than was last said, on the path that it flies."""
+
+    t: Second
+    ident: str
+    """The pursuer's."""
+    promised: Second
+    """How long until joined, braking included: as forecast by flying the closed loop ahead."""
+    message: str
+    kind: Literal["promise_changed"] = "promise_changed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Alert:
     """Something a crew has to know of, or that it need no longer know of.
 
@@ -314,6 +323,7 @@ Document = (
     | PlanUnavailable
     | PlanRefused
     | ModeChanged
+    | PromiseChanged
     | Alert
     | Unable
     | SeparationLost

@@ -1,12 +1,13 @@
 """Can an aircraft fly so fast, so slow, so banked at a level? And at which level could it?"""
 
-from math import ceil, floor
+from math import ceil, floor, inf
+from typing import NamedTuple
 
 from relguide.flying.air import Air
-from relguide.flying.airframe import Airframe
+from relguide.flying.airframe import Airframe, TasRange
 from relguide.planning.inputs import expect_within
 from relguide.planning.limits import TAS
-from relguide.units import DEG, FT, KT, Metre, MetrePerSecond, Radian
+from relguide.units import DEG, FT, KT, Kilogram, Metre, MetrePerSecond, Radian
 
 FL310: Metre = 9449.0
 """Where flights take place unless something asks for another level [m]."""
@@ -22,6 +23,38 @@ SPEED_SLACK = 1e-9
 """Relative; a bound given in knots comes back from m/s with its last digit changed."""
 
 
+class Flown(NamedTuple):
+    """A type as it is flown: what its speeds depend on, beside the level."""
+
+    airframe: Airframe
+    air: Air
+    weight: Kilogram
+    bank: Radian
+
+    def speeds(self, level: Metre) -> TasRange:
+        """What can be flown at a level, in whole knots; none where not even one knot lies within.
+
+        Thrust need not hold the bank, lift must carry it.
+        """
+        found = self.airframe.tas_range(level, self.air, self.weight, self.bank)
+        whole = found.least < inf and ceil(found.least / KT) <= floor(found.most / KT)
+        return found if whole else TasRange(inf, 0.0)
+
+    def admits(self, level: Metre, tas: MetrePerSecond) -> bool:
+        """Whether a speed can be flown at a level."""
+        least, most = self.speeds(level)
+        return least * (1.0 - SPEED_SLACK) <= tas <= most * (1.0 + SPEED_SLACK)
+
+    @property
+    def banked(self) -> str:
+        """` with 25° of bank`; empty where wings are level."""
+        return f" with {abs(self.bank) / DEG:.3g}° of bank" if self.bank else ""
+
+    def at(self, level: Metre) -> str:
+        """`at FL390 at 140 t`."""
+        return f"at {flight_level(level)} at {self.weight / 1000.0:.4g} t"
+
+
 def envelope_fault(
     airframe: Airframe,
     altitude: Metre,
@@ -29,6 +62,7 @@ def envelope_fault(
     *,
     tas: MetrePerSecond,
     bank: Radian = 0.0,
+    weight: Kilogram = 0.0,
 ) -> str:
     """Why something cannot be flown, in one sentence in a crew's units; empty if it can.
 
@@ -38,6 +72,7 @@ def envelope_fault(
         air: its temperature counts, its wind does not.
         tas: true airspeed [m/s].
         bank: to either side [rad].
+        weight: [kg]; 0 for the reference weight.
     """
     who = f"The {airframe.designator}"
     if altitude > airframe.ceiling + LEVEL_SLACK:
@@ -46,12 +81,14 @@ def envelope_fault(
     if abs(bank) > airframe.max_bank * (1.0 + SPEED_SLACK):
         most = f"{airframe.max_bank / DEG:g}°"
         return f"{who} cannot bank by {abs(bank) / DEG:g}°: choose {most} or less."
-    least, most_tas = airframe.tas_range(altitude, air)
-    if tas > most_tas * (1.0 + SPEED_SLACK):
-        return f"{who} {_too_fast(airframe, altitude, air, tas)}"
-    if tas < least * (1.0 - SPEED_SLACK):
-        return f"{who} {_too_slow(airframe, altitude, air, tas)}"
-    return ""
+    flown = Flown(airframe, air, weight or airframe.reference_weight, abs(bank))
+    if flown.admits(altitude, tas):
+        return ""
+    least, most_tas = flown.speeds(altitude)
+    if least > most_tas:
+        return f"{who} {_too_high(flown, altitude)}"
+    why = _too_fast(flown, altitude, tas) if tas > most_tas else _too_slow(flown, altitude, tas)
+    return f"{who} {why}"
 
 
 def level_for(
@@ -61,6 +98,8 @@ def level_for(
     slowest: MetrePerSecond,
     fastest: MetrePerSecond,
     preferred: Metre = FL310,
+    bank: Radian = 0.0,
+    weight: Kilogram = 0.0,
 ) -> Metre:
     """The level nearest to the preferred one at which two speeds can both be flown.
 
@@ -70,6 +109,8 @@ def level_for(
         slowest: true airspeed [m/s]; it keeps 2 % from the least speed.
         fastest: true airspeed [m/s], not below `slowest`.
         preferred: pressure altitude [m]; the others are whole thousands of feet.
+        bank: that the lift must allow for [rad].
+        weight: [kg]; 0 for the reference weight.
 
     Returns:
         A pressure altitude [m] from FL010 to the ceiling; of two equally near the lower.
@@ -79,26 +120,26 @@ def level_for(
     """
     slowest = expect_within("slowest", slowest, *TAS)
     fastest = expect_within("fastest", fastest, slowest, TAS.high, TAS.unit)
-    levels = _levels(airframe, preferred)
-    slow = [level for level in levels if _slow_enough(airframe, level, air, slowest)]
-    fast = [level for level in levels if _fast_enough(airframe, level, air, fastest)]
+    flown = Flown(airframe, air, weight or airframe.reference_weight, bank)
+    speeds = {level: flown.speeds(level) for level in _levels(airframe, preferred)}
+    levels = list(speeds)
+    slow = [level for level in levels if slowest >= _sent(speeds[level]) * (1.0 - SPEED_SLACK)]
+    fast = [level for level in levels if fastest <= speeds[level].most * (1.0 + SPEED_SLACK)]
     both = [level for level in slow if level in fast]
     if both:
         return both[0]
     who = f"The {airframe.designator}"
     if not slow:
         low = min(levels)
-        least = SLOW_MARGIN * airframe.tas_range(low, air).least
         raise ValueError(
-            f"{who} can fly {_knots(slowest)} at no level: choose {ceil(least / KT)} kt or more,"
-            f" its slowest at {flight_level(low)} with 2 % in hand."
+            f"{who} can fly {_knots(slowest)} at no level: choose {ceil(_sent(speeds[low]) / KT)}"
+            f" kt or more, its slowest at {flight_level(low)}{flown.banked} with 2 % in hand."
         )
     if not fast:
-        best = max(levels, key=lambda level: airframe.tas_range(level, air).most)
-        most = airframe.tas_range(best, air).most
+        best = max(levels, key=lambda level: speeds[level].most)
         raise ValueError(
-            f"{who} can fly {_knots(fastest)} at no level: choose {floor(most / KT)} kt or less,"
-            f" its fastest at {flight_level(best)}."
+            f"{who} can fly {_knots(fastest)} at no level: choose"
+            f" {floor(speeds[best].most / KT)} kt or less, its fastest at {flight_level(best)}."
         )
     raise ValueError(
         f"{who} can fly both {_knots(slowest)} and {_knots(fastest)} at no level: the one needs"
@@ -120,45 +161,51 @@ def _levels(airframe: Airframe, near: Metre) -> list[Metre]:
     return sorted(levels, key=lambda level: (abs(level - near), level))
 
 
-def _slow_enough(airframe: Airframe, level: Metre, air: Air, tas: MetrePerSecond) -> bool:
-    return tas >= SLOW_MARGIN * airframe.tas_range(level, air).least * (1.0 - SPEED_SLACK)
+def _sent(speeds: TasRange) -> MetrePerSecond:
+    """The slowest that an aircraft is sent at [m/s]."""
+    return SLOW_MARGIN * speeds.least
 
 
-def _fast_enough(airframe: Airframe, level: Metre, air: Air, tas: MetrePerSecond) -> bool:
-    return tas <= airframe.tas_range(level, air).most * (1.0 + SPEED_SLACK)
-
-
-def _too_fast(airframe: Airframe, altitude: Metre, air: Air, tas: MetrePerSecond) -> str:
+def _too_high(flown: Flown, altitude: Metre) -> str:
     """What is wrong and what would be right, after "The A306"."""
+    thrust = flown.airframe.tas_range(altitude, flown.air, flown.weight, flown.bank).least < inf
+    why = "climb thrust keeps no speed" if thrust else "no speed carries it"
+    usable = [
+        level
+        for level in _levels(flown.airframe, altitude)
+        if level < altitude and flown.speeds(level).least < inf
+    ]
+    right = f"choose {flight_level(usable[0])} or below" if usable else "choose a lower weight"
+    return f"cannot fly {flown.at(altitude)}: {why} there{flown.banked}; {right}."
+
+
+def _too_fast(flown: Flown, altitude: Metre, tas: MetrePerSecond) -> str:
+    """What is wrong and what would be right, after "The A306"."""
+    airframe, air = flown.airframe, flown.air
+    most = flown.speeds(altitude).most
+    knots = floor(most / KT)
     by_mach = air.tas_from_mach(airframe.m_mo, altitude)
     by_cas = air.tas_from_cas(airframe.v_mo, altitude)
-    limits = (
-        (by_mach, f"M {airframe.m_mo:g} allows {floor(by_mach / KT)} kt there"),
-        (by_cas, f"{airframe.v_mo / KT:g} kt CAS allows {floor(by_cas / KT)} kt there"),
-    )
-    most, why = min(limits)
-    fast = [
-        level
-        for level in _levels(airframe, altitude)
-        if _fast_enough(airframe, level, air, tas) and tas >= airframe.tas_range(level, air).least
-    ]
+    where = f"at {flight_level(altitude)}"
+    if most < min(by_mach, by_cas) * (1.0 - SPEED_SLACK):
+        where, why = flown.at(altitude), f"thrust and lift{flown.banked} allow {knots} kt there"
+    elif by_mach < by_cas:
+        why = f"M {airframe.m_mo:g} allows {knots} kt there"
+    else:
+        why = f"{airframe.v_mo / KT:g} kt CAS allows {knots} kt there"
+    fast = [level for level in _levels(airframe, altitude) if flown.admits(level, tas)]
     instead = f", or {flight_level(fast[0])}" if fast else ""
-    return (
-        f"cannot fly {_knots(tas)} at {flight_level(altitude)}: {why};"
-        f" choose {floor(most / KT)} kt or less{instead}."
-    )
+    return f"cannot fly {_knots(tas)} {where}: {why}; choose {knots} kt or less{instead}."
 
 
-def _too_slow(airframe: Airframe, altitude: Metre, air: Air, tas: MetrePerSecond) -> str:
+def _too_slow(flown: Flown, altitude: Metre, tas: MetrePerSecond) -> str:
     """What is wrong and what would be right, after "The A306"."""
-    least = airframe.tas_range(altitude, air).least
-    levels = _levels(airframe, altitude)
-    slow = [level for level in levels if tas >= airframe.tas_range(level, air).least]
+    knots = ceil(flown.speeds(altitude).least / KT)
+    slow = [level for level in _levels(flown.airframe, altitude) if flown.admits(level, tas)]
     instead = f", or {flight_level(slow[0])} or below" if slow else ""
     return (
-        f"cannot fly {_knots(tas)} at {flight_level(altitude)}: its least speed,"
-        f" {airframe.least_cas / KT:.0f} kt CAS, is {ceil(least / KT)} kt there;"
-        f" choose {ceil(least / KT)} kt or more{instead}."
+        f"cannot fly {_knots(tas)} {flown.at(altitude)}: the least speed{flown.banked} is"
+        f" {knots} kt there; choose {knots} kt or more{instead}."
     )
 
 

@@ -25,6 +25,7 @@ from relguide.flying.leaders.declared import (
 from relguide.flying.leaders.recorded import RecordedLeader, steps_of_track
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
 from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.flight.energy import idle_deceleration
 from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits, limits_at
 from relguide.kernels.flight.second import (
     GUIDED,
@@ -37,8 +38,8 @@ from relguide.planning.limits import POSITION, TAS
 from relguide.planning.situation import IntentPiece
 from relguide.units import DEG, NM, Metre, MetrePerSecond, Radian, Second
 
-DECLARED_DECELERATION = 0.5
-"""Share of its type's deceleration that a leader uses: it slows down without brakes."""
+LEADERS_ACCELERATION = 0.1
+"""A leader speeds up by so much at the least: often it is not of the type taken for it [m/s²]."""
 OFF_INTENT: Metre = 0.5 * NM
 """So far from where it declared that it would be, a leader does not fly its intent [m]."""
 OFF_HEADING: Radian = 10.0 * DEG
@@ -61,7 +62,7 @@ class Fleet:
         count, steps = len(world.aircraft), round(1.0 / step)
         self.world, self.step, self.steps = world, step, steps
         self.states = np.zeros((count, 7))
-        self.limits = np.zeros((count, 8))
+        self.limits = np.zeros((count, len(Limits._fields)))
         self.pilots = np.zeros(count, dtype=np.int64)
         self.controls = np.zeros((count, 3))
         self.programs = np.zeros((count, 32, 3))
@@ -237,19 +238,32 @@ class Fleet:
 
 
 def limits_of(aircraft: Aircraft, airframe: Airframe, air: Air) -> Limits:
-    """What an aircraft can do at its level; leaders may fly at any speed that is accepted."""
-    slowest, fastest = airframe.tas_range(aircraft.altitude, air)
-    deceleration = airframe.max_deceleration
-    if not isinstance(aircraft.pilot, Guided):
-        slowest, fastest = TAS.low, TAS.high
-        deceleration *= DECLARED_DECELERATION
-    return Limits(
-        aircraft.max_bank,
+    """What an aircraft can do at its level and weight.
+
+    Leaders fly at any speed that is accepted, whatever their type: so they speed up and slow down,
+    without brakes, as their type does at the speed nearest to theirs.
+    """
+    guided = isinstance(aircraft.pilot, Guided)
+    rolls = (
+        aircraft.autopilot_bank if guided else aircraft.max_bank,
         airframe.max_roll_rate,
         airframe.roll_time_constant,
         airframe.speed_time_constant,
-        airframe.max_acceleration,
-        deceleration,
-        slowest,
-        fastest,
     )
+    if guided:
+        level, weight = aircraft.altitude, airframe.expect_weight("weight", aircraft.weight)
+        slowest, fastest = airframe.tas_range(level, air, weight)
+        climb, idle, brakes, induced = airframe.energy(level, air, weight)
+        return Limits(*rolls, *climb, *idle, brakes, induced, 1.0, slowest, fastest)
+    level = min(aircraft.altitude, airframe.ceiling)
+    slowest, fastest = airframe.tas_range(level, air)
+    tas = min(max(aircraft.tas, slowest), fastest)
+    faster = max(airframe.excess_acceleration(level, tas, air), LEADERS_ACCELERATION)
+    slower = airframe.idle_deceleration(level, tas, air)
+    return Limits(*rolls, faster, 0.0, 0.0, -slower, 0.0, 0.0, 0.0, 0.0, 1.0, TAS.low, TAS.high)
+
+
+def dependable_deceleration(limits: Limits, tas: MetrePerSecond) -> float:
+    """What idle thrust takes off at any speed from the least to a faster one [m/s²]."""
+    speeds = np.linspace(limits.min_tas, max(tas, limits.min_tas), 5).tolist()
+    return min(idle_deceleration(limits, speed, 1.0) for speed in speeds)

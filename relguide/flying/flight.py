@@ -38,7 +38,7 @@ from relguide.planning.inputs import (
 from relguide.planning.limits import SPACING
 from relguide.planning.plan import Plan, Planner, plan
 from relguide.planning.situation import IntentPiece, Situation, TurnTo
-from relguide.units import DEG, Metre, Radian, Second
+from relguide.units import DEG, Kilogram, Metre, Radian, Second
 
 TEXTS = ("name", "title", "description", "pursuer_ident", "leader_ident", "leader_type")
 """Fields of a scenario that people read."""
@@ -73,6 +73,8 @@ class Scenario:
     leader_ident: str = "LEADER"
     pursuer_type: str = DEFAULT_TYPE
     """ICAO designator of one of the types that are known."""
+    pursuer_weight: Kilogram = 0.0
+    """[kg]; 0 for the reference weight of its type."""
     leader_type: str = DEFAULT_TYPE
     """Of a leader that is not recorded; of another only its designator is shown."""
     altitude: Metre = 9449.0
@@ -104,12 +106,14 @@ class Scenario:
         if number("after_joining", self.after_joining) < 0.0:
             raise ValueError(f"after_joining must be 0 s or more, not {self.after_joining}.")
         pursuer = self.situation.pursuer
+        airframe(self.pursuer_type).expect_weight("pursuer_weight", self.pursuer_weight)
         fault = envelope_fault(
             airframe(self.pursuer_type),
             self.altitude,
             self.air,
             tas=pursuer.tas,
             bank=pursuer.max_bank,
+            weight=self.pursuer_weight,
         )
         if fault:
             raise ValueError(fault)
@@ -228,6 +232,7 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
                 heading=pursuer.heading,
                 tas=pursuer.tas,
                 altitude=scenario.altitude,
+                weight=scenario.pursuer_weight,
                 max_bank=pursuer.max_bank,
                 pilot=Guided(),
             ),

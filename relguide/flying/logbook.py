@@ -33,6 +33,7 @@ from relguide.flying.documents import (
     PlanProposed,
     PlanRefused,
     PlanUnavailable,
+    PromiseChanged,
     Sample,
     Unable,
 )
@@ -42,6 +43,7 @@ from relguide.flying.guidance.announcements import (
     Event,
     ModeChange,
     NewPlan,
+    NewPromise,
     PlanMissing,
     PlannerRefused,
     ProposedPlan,
@@ -227,13 +229,15 @@ def event_document(t: Second, names: PairNames, event: Event) -> Document:
                 previous=event.previous,
                 message=event.message,
             )
+        case NewPromise(joins=joins):
+            return PromiseChanged(t=t, ident=ident, promised=joins - t, message=event.message)
         case Alerted():
             return Alert(
                 t=t,
                 ident=ident,
                 other=names.leader,
                 level=event.level,
-                subject="separation",
+                subject=event.subject,
                 message=event.message,
                 predicted_least=event.predicted_least,
                 predicted_at=event.predicted_at,

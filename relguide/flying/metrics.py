@@ -38,9 +38,9 @@ def count_event(metrics: FlightMetrics, document: Document) -> FlightMetrics:
             )
         case ModeChanged(t=t, mode="follow"):
             return metrics._replace(following_since=t)
-        case Alert(cleared=True):
+        case Alert(subject="separation", cleared=True):
             return metrics._replace(alerted=())
-        case Alert(t=t, level="caution" | "warning"):
+        case Alert(t=t, subject="separation", level="caution" | "warning"):
             return metrics._replace(alerted=metrics.alerted or (t,))
         case Unable(t=t):
             return metrics._replace(unable=metrics.unable or (t,))
@@ -73,6 +73,11 @@ def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
             heading_swing=float(row[SWING]),
             track=float(row[TRACK]),
             bank_reversals=int(row[REVERSALS]),
+        )
+    if one.memory.mode == "follow" and one.advice is not None:
+        metrics = metrics._replace(
+            along_error=max(metrics.along_error, abs(one.advice.along)),
+            across_error=max(metrics.across_error, abs(one.advice.across)),
         )
     one.metrics = metrics
     limit = one.link.min_separation
@@ -126,7 +131,9 @@ def _cause(one: Pursuit, t: Second) -> str:
     return "What was flown is not what was forecast."
 
 
-def link_result(t: Second, names: PairNames, metrics: FlightMetrics, fallbacks: int) -> LinkResult:
+def link_result(
+    t: Second, names: PairNames, metrics: FlightMetrics, fallbacks: int, optimum: Second
+) -> LinkResult:
     """How the flight of one pursuer went.
 
     Args:
@@ -134,6 +141,7 @@ def link_result(t: Second, names: PairNames, metrics: FlightMetrics, fallbacks: 
         names: of both.
         metrics: its figures.
         fallbacks: how often an exact plan took the place of the planner's.
+        optimum: time to converge of the fastest plan from the start; 0 if there is none [s].
     """
     return LinkResult(
         ident=names.pursuer,
@@ -150,4 +158,7 @@ def link_result(t: Second, names: PairNames, metrics: FlightMetrics, fallbacks: 
         fallbacks=fallbacks,
         track=metrics.track,
         losses=metrics.losses,
+        optimum=optimum,
+        along_error=metrics.along_error,
+        across_error=metrics.across_error,
     )

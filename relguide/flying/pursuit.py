@@ -6,7 +6,7 @@ from typing import NamedTuple
 from relguide.flying.aircraft_documents import Loss
 from relguide.flying.belief import Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
-from relguide.flying.fleet import Fleet
+from relguide.flying.fleet import Fleet, dependable_deceleration, limits_of
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
@@ -58,6 +58,10 @@ class FlightMetrics(NamedTuple):
     unable: tuple[Second, ...] = ()
     """When `Unable` was said first since the last plan; empty if it was not."""
     losses: tuple[Loss, ...] = ()
+    along_error: Metre = 0.0
+    """Largest along the route while it followed."""
+    across_error: Metre = 0.0
+    """Largest beside it."""
 
 
 @dataclass(slots=True)
@@ -79,14 +83,14 @@ class Pursuit:
     view: LeaderView
     memory: Memory
     metrics: FlightMetrics
-    tas: MetrePerSecond
-    """The pursuer's a second ago [m/s]."""
+    idle_deceleration: float
+    """What the data of the pursuer's type give [m/s²]."""
     advice: Advice | None = None
     shown_forecast: Forecast | None = None
     lost: bool = False
     """Whether the separation is below d_min."""
     braked: tuple[MetrePerSecond, ...] = ()
-    """What was lost in each of the last seconds in which it braked less than was asked [m/s]."""
+    """The airspeeds of the last seconds, all of them with braking asked for in earnest [m/s]."""
     doubted: int = 0
     """For how many seconds the leader has not flown what it declared."""
 
@@ -108,33 +112,35 @@ def begin_pursuit(
     intent, track = link.declared_intent, fleet.begin_track(link)
     declared = None if intent is None else fleet.as_declared(j, intent)
     belief = fleet.belief(i, j, track, 0.0, link.intent_known, declared)
+    assignment = assignment_of(world, link)
     return Pursuit(
         link=link,
         names=PairNames(link.pursuer, link.leader),
         pursuer=i,
         leader=j,
-        assignment=assignment_of(world, link),
+        assignment=assignment,
         track=track,
         known=belief.intent_known,
         declared=declared,
         view=LeaderView(belief),
         memory=begin(belief, engagement),
         metrics=FlightMetrics(fleet.apart(i, j)),
-        tas=belief.own.tas,
+        idle_deceleration=assignment.idle_deceleration,
     )
 
 
 def assignment_of(world: World, link: Link) -> Assignment:
     """What a link asks of its pursuer."""
     pursuer = world.aircraft[world.index(link.pursuer)]
-    can = pursuer.known_airframe
-    least, _ = can.tas_range(pursuer.altitude, world.believed_air or world.air)
+    can, air = pursuer.known_airframe, world.believed_air or world.air
+    limits = limits_of(pursuer, can, air)
     return Assignment(
         aircraft_type=can.designator,
         tas=pursuer.tas,
-        max_bank=pursuer.max_bank,
-        idle_deceleration=can.idle_deceleration,
-        min_tas=least,
+        asked_bank=pursuer.max_bank,
+        max_bank=pursuer.autopilot_bank,
+        idle_deceleration=dependable_deceleration(limits, pursuer.tas),
+        min_tas=limits.min_tas,
         slot_distance=link.slot_distance,
         min_separation=link.min_separation,
         spacing=link.spacing,

@@ -108,7 +108,7 @@ def scenario_behind(
     first = track.state_at(0.0)
     along_x, along_y = sin(first.track), cos(first.track)
     fast = max(first.ground_speed, *(track.state_at(t).ground_speed for t in (60.0, 180.0)))
-    can = airframe(DEFAULT_TYPE).tas_range(first.altitude, STANDARD_AIR)
+    can = airframe(DEFAULT_TYPE).tas_range(first.altitude, STANDARD_AIR, bank=25.0 * DEG)
     speed = min(max(FASTER * fast, can.least), can.most)
     return Scenario(
         name="recorded_leader",
@@ -191,11 +191,12 @@ def random_scenario(seed: int) -> Scenario:
 def _level(situation: Situation) -> Metre:
     """Where the pursuer can fly its own speed and, if there is such a level, its leader's."""
     own, can = situation.pursuer.tas, airframe(DEFAULT_TYPE)
-    air = Air(wind=situation.wind)
+    air, bank = Air(wind=situation.wind), situation.pursuer.max_bank
     try:
-        return level_for(can, air, slowest=min(own, situation.leader.tas), fastest=own)
+        slowest = min(own, situation.leader.tas)
+        return level_for(can, air, slowest=slowest, fastest=own, bank=bank)
     except ValueError:
-        return level_for(can, air, slowest=own, fastest=own)
+        return level_for(can, air, slowest=own, fastest=own, bank=bank)
 
 
 def _report_nothing() -> str:

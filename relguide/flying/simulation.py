@@ -32,6 +32,7 @@ from relguide.flying.leader_watch import (
 )
 from relguide.flying.logbook import event_document, forecast_document, sample
 from relguide.flying.metrics import count_event, count_second, link_result
+from relguide.flying.optimum import optimum
 from relguide.flying.orders import (
     Command,
     CrewCommand,
@@ -254,7 +255,14 @@ def _finish(
     least = [one.metrics.least_separation for one in pursuits]
     yield _sample(pursuits, least, fleet, t, 0.0, None)
     results = tuple(
-        link_result(t, one.names, one.metrics, one.memory.fallbacks) for one in pursuits
+        link_result(
+            t,
+            one.names,
+            one.metrics,
+            one.memory.fallbacks,
+            optimum(fleet.world, one.link) if one.metrics.joined else 0.0,
+        )
+        for one in pursuits
     )
     yield FlightEnded(t=t, reason=reason, message=message, results=results)
 

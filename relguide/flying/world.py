@@ -18,10 +18,12 @@ from relguide.planning.limits import (
     too_close_a_slot,
 )
 from relguide.planning.situation import IntentPiece, expect_bank, expect_distance, expect_intent
-from relguide.units import Metre, MetrePerSecond, Radian, Second
+from relguide.units import DEG, Kilogram, Metre, MetrePerSecond, Radian, Second
 
 ALTITUDES = Range(-500.0, 20_000.0, "m")
 """Where aircraft fly: from below the Dead Sea's shore to where the standard air ends."""
+BANK_IN_RESERVE: Radian = 5.0 * DEG
+"""An autopilot may bank by so much more than its plans turn with, where its type allows it."""
 RANGES = {"x": POSITION, "y": POSITION, "heading": HEADING, "tas": TAS, "altitude": ALTITUDES}
 """What is accepted of an aircraft's numbers, beside its bank."""
 
@@ -80,8 +82,10 @@ class Aircraft:
     altitude: Metre
     """[m]."""
     max_bank: Radian
-    """What its autopilot may use [rad]."""
+    """What its plans turn with [rad]."""
     pilot: Pilot
+    weight: Kilogram = 0.0
+    """[kg]; 0 for the reference weight of its airframe."""
     believed: Airframe | None = None
     """What its guidance believes of the airframe; the truth, if left out."""
 
@@ -95,9 +99,15 @@ class Aircraft:
             value = expect_within(name, getattr(self, name), *accepted)
             object.__setattr__(self, name, value)
         object.__setattr__(self, "max_bank", expect_bank("max_bank", self.max_bank))
+        self.airframe.expect_weight("weight", self.weight)
         expect("pilot", self.pilot, Guided, Declared, Recorded)
         if self.believed is not None:
             expect("believed", self.believed, Airframe)
+
+    @property
+    def autopilot_bank(self) -> Radian:
+        """What its autopilot may use, to stay on a path that turns at `max_bank` [rad]."""
+        return min(self.airframe.max_bank, self.max_bank + BANK_IN_RESERVE)
 
     @property
     def known_airframe(self) -> Airframe:
@@ -179,7 +189,12 @@ class World:
         if not isinstance(pursuer.pilot, Guided):
             raise ValueError(f"The pilot of {pursuer.ident!r} must be Guided() to join a leader.")
         fault = envelope_fault(
-            pursuer.airframe, pursuer.altitude, self.air, tas=pursuer.tas, bank=pursuer.max_bank
+            pursuer.airframe,
+            pursuer.altitude,
+            self.air,
+            tas=pursuer.tas,
+            bank=pursuer.max_bank,
+            weight=pursuer.weight,
         )
         if fault:
             raise ValueError(fault)

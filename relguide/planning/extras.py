@@ -27,6 +27,9 @@ EXTRAS = {
     "distributed": "cluster",
     "pyarrow": "parquet",
     "psycopg": "postgres",
+    "cfgrib": "winds",
+    "eccodes": "winds",
+    "xarray": "winds",
 }
 """A package, as it is imported, and the smallest extra that brings it."""
 

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-4f7a2ee3ec4d";
+export const PROTOCOL = "relguide-10cc1758dd06";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -33,7 +33,8 @@ export type PlanReason =
   | "leader_changed_speed"
   | "leader_elsewhere"
   | "intent_received"
-  | "intent_withdrawn";
+  | "intent_withdrawn"
+  | "braking";
 
 /** What is new about the leader. */
 export type LeaderChange =
@@ -53,7 +54,7 @@ export type AlertLevel = "advisory" | "caution" | "warning";
 export type AlertState = "none" | "advisory" | "caution" | "warning";
 
 /** What an alert is about. */
-export type AlertSubject = "separation" | "speed" | "data" | "geometry";
+export type AlertSubject = "separation" | "spacing" | "speed" | "data" | "geometry";
 
 /** Why guidance cannot do what it is to do. */
 export type UnableReason = "separation" | "speed" | "geometry" | "envelope" | "data";
@@ -100,6 +101,7 @@ export type Document =
   | PlanUnavailable
   | PlanRefused
   | ModeChanged
+  | PromiseChanged
   | Alert
   | Unable
   | SeparationLost
@@ -582,6 +584,15 @@ export interface LinkResult {
   /** Distance flown over the ground until joined. */
   track_m: number;
   losses: Loss[];
+  /**
+   * Time to converge of the fastest plan from the start, with the bank that was asked for and all
+   * that the leader was to fly; 0 where there is none, or the leader is recorded.
+   */
+  optimum_s: number;
+  /** Largest distance along the route from where it should be, while it followed. */
+  along_error_m: number;
+  /** Largest distance beside the route, while it followed. */
+  across_error_m: number;
 }
 
 /** The aircraft to be joined, at t = 0, with what it has declared it will do. */
@@ -821,6 +832,17 @@ export interface PlanUnavailable {
 /** Continue the flight. */
 export interface PlayCommand {
   command: "play";
+}
+
+/** The pursuer will join at another time than was last said, on the path that it flies. */
+export interface PromiseChanged {
+  kind: "promise_changed";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  /** How long until joined, braking included: as forecast by flying the closed loop ahead. */
+  promised_s: number;
+  message: string;
 }
 
 /** Select a heading for the pursuer, while guidance is not engaged. */

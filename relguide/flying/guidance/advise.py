@@ -26,6 +26,7 @@ from relguide.flying.guidance.commit.committed import (
 from relguide.flying.guidance.commit.proposal import NoProposal, NotBetter, Proposal
 from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.forecast import NO_COURSE
+from relguide.flying.guidance.joining import judge_spacing, promise_anew
 from relguide.flying.guidance.leader_news import (
     is_steady,
     judge_speed,
@@ -108,6 +109,10 @@ def advise(
     events += news
     alert, said = judge_separation(memory.alert, outlook, belief, assignment)
     memory = memory._replace(alert=alert, forecast=outlook.forecast)
+    memory, news = promise_anew(memory, belief, assignment)
+    events += news
+    memory, news = judge_spacing(memory, belief, assignment, done, outlook)
+    events += news
     return memory, _advice(memory, belief, assignment, done, (*events, *said))
 
 
@@ -246,6 +251,8 @@ def _outlook(memory: Memory, belief: Belief, assignment: Assignment) -> Outlook:
     committed, until = memory.committed, belief.t + assignment.settings.watch
     if committed is not None:  # all of its path, which is drawn
         until = max(committed.due, belief.t) + BRAKES_FOR
+    elif memory.mode == "capture":  # until it joins, which is promised
+        until = belief.t + BRAKES_FOR
     return look_out(
         belief,
         assignment,
@@ -325,6 +332,8 @@ def _advice(
         slot=_slot(memory, belief, assignment),
         slot_open=belief.slot_open(assignment.slot_distance),
         to_slot=done.to_slot,
+        along=done.to_slot + assignment.aim - assignment.slot_distance,
+        across=done.right,
         time_to_go=go,
         joined=done.joined,
         alert=memory.alert.level,

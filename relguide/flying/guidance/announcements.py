@@ -24,10 +24,16 @@ PlanReason = Literal[
     "leader_elsewhere",
     "intent_received",
     "intent_withdrawn",
+    "braking",
 ]
 """Why a new plan was made."""
 AlertLevel = Literal["advisory", "caution", "warning"]
 """advisory: to be known; caution: to be seen to at once; warning: to be acted upon at once."""
+AlertSubject = Literal["separation", "spacing", "speed", "data", "geometry"]
+"""separation: d_min will be lost; spacing: the pursuer follows, and has not been in the gate for a
+minute; speed: the leader flies at a speed that cannot be matched; data: what is known of the leader
+is old or contradicts itself; geometry: it flies where it cannot be followed, as when it turns
+back."""
 AlertState = Literal["none", "advisory", "caution", "warning"]
 """The level of the alert that stands, or that there is none."""
 UnableReason = Literal["separation", "speed", "geometry", "envelope", "data"]
@@ -93,9 +99,19 @@ class ModeChange:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class NewPromise:
+    """The pursuer joins at another time than was last said, by the same path."""
+
+    joins: Second
+    """When, flight time [s]."""
+    message: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Alerted:
     """An alert begins, becomes more urgent or less, or is over."""
 
+    subject: AlertSubject
     level: AlertLevel
     """Of the alert that begins or, when cleared, ends."""
     message: str
@@ -120,6 +136,7 @@ Event = (
     | PlanMissing
     | PlannerRefused
     | ModeChange
+    | NewPromise
     | Alerted
     | UnableTo
 )
@@ -189,10 +206,17 @@ def reason_sentence(reason: PlanReason, belief: Belief) -> str:
             return "The leader's intent is known"
         case "intent_withdrawn":
             return "The leader's intent is no longer known"
+        case "braking":
+            return "The aircraft slows down otherwise than its data say"
 
 
 def summary(plan: Plan, joins_in: Second) -> str:
     """Its word, when it joins and the separation it keeps, in a clause."""
-    minutes, seconds = divmod(round(joins_in), 60)
     least = plan.certificate.least_separation / NM
-    return f"{plan.word} joins in {minutes} min {seconds:02d} s and keeps {least:.1f} NM"
+    return f"{plan.word} joins in {clock(joins_in)} and keeps {least:.1f} NM"
+
+
+def clock(duration: Second) -> str:
+    """A duration as crews read it: `6 min 05 s`."""
+    minutes, seconds = divmod(round(duration), 60)
+    return f"{minutes} min {seconds:02d} s"

@@ -20,6 +20,8 @@ class Assignment:
     """ICAO designator of the pursuer, for sentences."""
     tas: MetrePerSecond
     """V_P, kept until the spacing closes [m/s]."""
+    asked_bank: Radian
+    """What the plans are asked to turn with [rad]."""
     max_bank: Radian
     """What the autopilot may use [rad]."""
     idle_deceleration: float
@@ -36,8 +38,8 @@ class Assignment:
 
     @cached_property
     def planned_bank(self) -> Radian:
-        """φ_max of the plans: the autopilot has some more in hand [rad]."""
-        return self.settings.planned_bank(self.max_bank)
+        """φ_max of the plans: the bank that was asked for, with some more in hand [rad]."""
+        return min(self.asked_bank, self.settings.planned_bank(self.max_bank))
 
     @cached_property
     def aim(self) -> Metre:

@@ -14,7 +14,7 @@ from relguide.flying.guidance.assignment import Assignment
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.ahead import AT, LEAST, NEVER, RIGHT, fly_ahead
-from relguide.kernels.flight.flight_records import Body
+from relguide.kernels.flight.flight_records import Body, Drift
 from relguide.kernels.flight.guide import Course, Progress
 from relguide.kernels.flight.path import lay_path
 from relguide.units import Metre, Second
@@ -23,7 +23,9 @@ STEPS = 4
 """Of a second, in a forecast: within 10 m of 20 a second."""
 FOLLOWED: Second = 150.0
 """How long a forecast goes on once it has joined [s]."""
-NO_COURSE = Course(lay_path(0.0, 0.0, 0.0, np.zeros((0, 2)), 1.0, 0.0, 1.0), 0.0, 0.0, 0.0)
+NO_COURSE = Course(
+    lay_path(0.0, 0.0, 0.0, np.zeros((0, 2)), 1.0, 0.0, 1.0), 0.0, 0.0, 0.0, Drift(0.0, 0.0)
+)
 """Where no path is committed."""
 
 

@@ -63,6 +63,15 @@ class StandingAlert(NamedTuple):
     """When its cause was last seen, flight time [s]."""
 
 
+class OutOfGate(NamedTuple):
+    """How long a pursuer that follows has not been in the gate."""
+
+    since: Second = LONG_AGO
+    """When it left, flight time [s]; `LONG_AGO` while it is in, or does not follow."""
+    said: bool = False
+    """Whether that was said."""
+
+
 class Memory(NamedTuple):
     """What guidance remembers from one second to the next: some are made in each."""
 
@@ -99,6 +108,7 @@ class Memory(NamedTuple):
     unable: UnableReason | None
     """Why guidance cannot go on, as was said; `None` if it can."""
     alert: StandingAlert
+    out_of_gate: OutOfGate
     fallbacks: int
     """How often an exact plan took the place of the planner's, for whatever reason."""
     refused: Fault | None
@@ -119,6 +129,10 @@ class Advice:
     slot_open: bool
     to_slot: Metre
     """Distance still to close along the route [m]."""
+    along: Metre
+    """How far it is behind D along the route, in capture and follow; negative if too near [m]."""
+    across: Metre
+    """How far to the right of what it tracks [m]."""
     time_to_go: Second
     """Until it joins, by the forecast [s]; 0 where it does not, or has."""
     joined: bool
@@ -151,6 +165,7 @@ def begin(belief: Belief, engagement: Engagement = "engaged") -> Memory:
         missing=None,
         unable=None,
         alert=StandingAlert(),
+        out_of_gate=OutOfGate(),
         fallbacks=0,
         refused=None,
     )

@@ -120,6 +120,7 @@ def judge_separation(
         if alert.level == "none" or t - alert.seen < settings.clears_after:
             return alert, ()
         said = Alerted(
+            subject="separation",
             level=alert.level,
             message="Separation is kept again.",
             predicted_least=outlook.least if outlook.least < inf else apart,
@@ -134,6 +135,7 @@ def judge_separation(
         return seen, ()
     return seen, (
         Alerted(
+            subject="separation",
             level=level,
             message=_sentence(level, outlook, apart, t, limit),
             predicted_least=outlook.least if outlook.least < inf else apart,

@@ -119,6 +119,8 @@ class Settings:
     forecast_error: Metre = 20.0
     """In capture and follow, where no plan keeps a buffer, what is forecast counts as so much less:
     forecasts are within 10 m of what is flown at 20 steps a second."""
+    out_for: Second = 60.0
+    """A pursuer that follows and has been out of the gate for so long says so."""
     clears_after: Second = 3.0
     """An alert ends so long after its cause."""
     speed_in_hand: MetrePerSecond = 2.0

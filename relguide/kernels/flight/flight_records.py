@@ -46,12 +46,26 @@ class Limits(NamedTuple):
     """τ of the roll mode [s]."""
     speed_time: float
     """τ_V of the autothrust [s]."""
-    acceleration: float
-    """Highest along the path [m/s²]."""
-    deceleration: float
-    """Highest, with speed brakes [m/s²], > 0."""
+    climb_0: float
+    """Acceleration at climb thrust without the drag of lift, c₀ + c₁ V + c₂ V²: c₀ [m/s²]."""
+    climb_1: float
+    """c₁ [1/s]."""
+    climb_2: float
+    """c₂ [1/m]."""
+    idle_0: float
+    """The same at idle: c₀ [m/s²]."""
+    idle_1: float
+    """c₁ [1/s]."""
+    idle_2: float
+    """c₂ [1/m]."""
+    brakes: float
+    """Deceleration by speed brakes over V² [1/m]."""
+    induced: float
+    """Deceleration by the drag of lift at 1 g, times V² [m³/s⁴]."""
+    braking: float
+    """Share of the deceleration that these give: 1, unless it was seen to be less."""
     min_tas: float
-    """Slowest that the autothrust accepts [m/s]."""
+    """Slowest that the autothrust accepts with wings level [m/s]."""
     max_tas: float
     """Fastest [m/s]."""
 
@@ -83,6 +97,12 @@ def move_to(body: Body, x: float, y: float) -> Body:
 
 
 @njit(cache=True, nogil=True)
+def at_speed(body: Body, tas: float) -> Body:
+    """The same aircraft at another true airspeed [m/s]."""
+    return Body(body.x, body.y, body.heading, body.bank, body.roll_rate, tas, body.integral)
+
+
+@njit(cache=True, nogil=True)
 def body_at(states: FloatArray, i: int) -> Body:
     """Row i of the states."""
     row = states[i]
@@ -93,7 +113,10 @@ def body_at(states: FloatArray, i: int) -> Body:
 def limits_at(limits: FloatArray, i: int) -> Limits:
     """Row i of the limits."""
     row = limits[i]
-    return Limits(row[0], row[1], row[2], row[3], row[4], row[5], row[6], row[7])
+    return Limits(
+        row[0], row[1], row[2], row[3], row[4], row[5], row[6], row[7], row[8], row[9], row[10],
+        row[11], row[12], row[13], row[14],
+    )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)

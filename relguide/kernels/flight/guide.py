@@ -1,6 +1,7 @@
 """One act of guidance, once a second, without planning: what is flown now, and what is asked next.
 
-converge tracks the committed path in the air mass. Where nothing of it turns any more, capture
+converge tracks the committed path over the ground: a path in an air mass that moves with the wind
+that was believed when it was laid. What the wind is otherwise is made good by the heading. Where nothing of it turns any more, capture
 closes onto the leader's flown path over the ground, and so does follow once joined: both track the
 marks, so an aircraft turns where its leader turned. Speed closes the spacing in all three. In the
 other modes a heading is held.
@@ -14,6 +15,7 @@ from numba import njit
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight import marks as at
+from relguide.kernels.flight.energy import regained
 from relguide.kernels.flight.flight_records import (
     HOLD_HEADING,
     Body,
@@ -40,7 +42,7 @@ HOLD, CONVERGE, CAPTURE, FOLLOW, ESCAPE = 0, 1, 2, 3, 4
 """Modes; in the first and the last a heading is held."""
 BENDS_AHEAD = 45.0
 """How far ahead a bend of the leader's path is slowed down for [s]: 30 m/s at 0.7 m/s²."""
-BEND_BANK = 0.9
+BEND_BANK = 0.95
 """Share of its bank that an aircraft plans to need in it."""
 
 
@@ -89,6 +91,8 @@ class Course(NamedTuple):
     """Place of the slot on the path's last straight, laid back to `begun` [m]."""
     slot_tas: float
     """How fast it moves along it [m/s]."""
+    wind: Drift
+    """That moves the air mass in which it was laid, as it was believed then."""
 
 
 class Progress(NamedTuple):
@@ -139,7 +143,8 @@ def act(
     mode = progress.mode
     if mode == CONVERGE:
         since = t - course.begun
-        x, y = body.x - wind.east * since, body.y - wind.north * since
+        x, y = body.x - course.wind.east * since, body.y - course.wind.north * since
+        rest = Drift(wind.east - course.wind.east, wind.north - course.wind.north)
         s, right = project(course.path, x, y, progress.s + body.tas)
         to_slot = course.slot + course.slot_tas * since - s
         if turning_after(course.path, s) > gate.capture_turn or not _is_near_marks(
@@ -147,9 +152,9 @@ def act(
         ):
             tas = task.tas
             if task.tas > course.slot_tas:
-                tas = closing_tas(to_slot, course.slot_tas, tas, limits.acceleration, gains)
+                tas = closing_tas(to_slot, course.slot_tas, tas, regained(limits, body), gains)
             aloft = move_to(body, x, y)
-            control = _along_path(course.path, s, right, aloft, limits, gains, tas)
+            control = _along_path(course.path, s, right, aloft, limits, gains, tas, rest)
             return Act(control, Progress(CONVERGE, s, 0.0, 0.0), right, to_slot, False)
         mode = CAPTURE
         progress = Progress(CAPTURE, _slot_on(marks, task) - to_slot - body.tas, 0.0, 0.0)
@@ -163,15 +168,19 @@ def act(
 
 @njit(cache=True, nogil=True)
 def _along_path(
-    path: FloatArray, s: float, right: float, body: Body, limits: Limits, gains: Gains, tas: float
-) -> Control:
-    """Track the committed path; the body's place is that in the air mass."""
-    x, y, heading = look_ahead(body, Drift(0.0, 0.0), gains.look_ahead)
+    path: FloatArray, s: float, right: float, body: Body, limits: Limits, gains: Gains, tas: float,
+    wind: Drift,
+) -> Control:  # fmt: skip
+    """Track the committed path; the body's place, and the wind, are those in its air mass."""
+    x, y, heading = look_ahead(body, wind, gains.look_ahead)
     s_later, right_later = project(path, x, y, s + body.tas * gains.look_ahead)
     felt = s + body.tas * gains.lag
     way = Way(
-        heading_on(path, s), heading_on(path, s_later),
-        heading_on(path, felt), heading_on(path, felt + body.tas), right, right_later,
+        heading_for_track(heading_on(path, s), body.tas, wind),
+        heading_for_track(heading_on(path, s_later), body.tas, wind),
+        heading_for_track(heading_on(path, felt), body.tas, wind),
+        heading_for_track(heading_on(path, felt + body.tas), body.tas, wind),
+        right, right_later,
     )  # fmt: skip
     asked = track(way, heading, body, limits.max_bank, gains.path_bandwidth, gains)
     return Control(asked.kind, asked.value, tas)
@@ -226,7 +235,7 @@ def _along_marks(
     room = hypot(body.x - leader[at.X], body.y - leader[at.Y]) - task.min_separation
     closing = min(to_slot, room) if room < 0.0 else to_slot
     keeping = tas_for_ground_speed(body.heading, leader[at.SPEED], wind)
-    tas = closing_tas(closing, keeping, task.tas, limits.acceleration, gains)
+    tas = closing_tas(closing, keeping, task.tas, regained(limits, body), gains)
     bend = sharpest_bend(marks, s, s + speed * BENDS_AHEAD, speed)
     if bend > 0.0:  # no faster than what can be banked for where the leader turned
         slow = sqrt(G0 * tan(BEND_BANK * limits.max_bank) / bend)

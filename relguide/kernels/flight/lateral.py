@@ -1,13 +1,14 @@
 """One step of an aircraft: roll mode, coordinated turn, speed, drift with the wind."""
 
-from math import exp
+from math import exp, sqrt, tan
 
 from numba import njit
 
 from relguide.kernels.base.motion import advance
-from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.autopilot import aileron
+from relguide.kernels.flight.energy import full_deceleration, most_acceleration
 from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits
+from relguide.units import G0
 
 
 @njit(cache=True, nogil=True)
@@ -16,7 +17,8 @@ def lateral_step(body: Body, control: Control, limits: Limits, wind: Drift, dt: 
 
         τ ṗ = aileron − p,   φ̇ = p,   ψ̇ = (g/V) tan φ,   V̇ = (V_c − V)/τ_V within its limits
 
-    Roll is exact, the turn of second order in dt.
+    Roll is exact, the turn of second order in dt. Slower than its least speed with wings level, an
+    aircraft loses no more speed: it would go down.
 
     Args:
         body: the aircraft.
@@ -30,10 +32,13 @@ def lateral_step(body: Body, control: Control, limits: Limits, wind: Drift, dt: 
     p, phi, v = body.roll_rate, body.bank, body.tas
     p_end = wanted + (p - wanted) * decay
     phi_end = phi + wanted * dt + (p - wanted) * limits.roll_time * (1.0 - decay)
-    asked = min(max(control.tas, limits.min_tas), limits.max_tas)
-    gain = (asked - v) / limits.speed_time
-    v_end = v + dt * min(max(gain, -limits.deceleration), limits.acceleration)
+    side = tan(0.5 * (phi + phi_end))
+    square = 1.0 + side * side
+    asked = min(max(control.tas, limits.min_tas * sqrt(sqrt(square))), limits.max_tas)
+    gain = max((asked - v) / limits.speed_time, -full_deceleration(limits, v, square))
+    gain = min(gain, most_acceleration(limits, v, square))
+    v_end = v + dt * (max(gain, 0.0) if v < limits.min_tas else gain)
     v_mean = 0.5 * (v + v_end)
-    rate = turn_rate(v_mean, 0.5 * (phi + phi_end))
+    rate = G0 / v_mean * side
     x, y, heading = advance(body.x, body.y, body.heading, v_mean, rate, dt)
     return Body(x + wind.east * dt, y + wind.north * dt, heading, phi_end, p_end, v_end, integral)

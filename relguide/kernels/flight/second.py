@@ -1,13 +1,24 @@
-"""A whole second of all aircraft in one call: autopilots, roll, speed, wind, least separations."""
+"""A whole second of all aircraft in one call: autopilots, roll, speed, wind, least separations.
 
-from math import hypot, inf
+Where the wind changes, from place to place or in a gust, an aircraft keeps its speed over the
+ground: its airspeed changes by as much, along its heading, and the air carries it across.
+"""
+
+from math import cos, hypot, inf, sin
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.flight.flight_records import Control, Drift, body_at, limits_at, store
+from relguide.kernels.flight.flight_records import (
+    Control,
+    Drift,
+    at_speed,
+    body_at,
+    limits_at,
+    store,
+)
 from relguide.kernels.flight.lateral import lateral_step
 from relguide.kernels.flight.program import fly_program
 
@@ -29,20 +40,21 @@ to, +1 right, −1 left; and how often it changed."""
 def fly_second(
     states: FloatArray, limits: FloatArray, pilots: IntArray, controls: FloatArray,
     programs: FloatArray, lengths: IntArray, cursors: IntArray, helds: FloatArray,
-    wind: Drift, t: float, dt: float, trace: FloatArray, tallies: FloatArray,
+    winds: FloatArray, t: float, dt: float, trace: FloatArray, tallies: FloatArray,
 ) -> None:  # fmt: skip
     """Fly all aircraft from t on, step by step.
 
     Args:
         states: where they are; in the end, where they are then. shape (n, 7), as `Body`
-        limits: what they can do. shape (n, 8), as `Limits`
+        limits: what they can do. shape (n, 15), as `Limits`
         pilots: who flies each: `GUIDED`, `PROGRAMMED` or `RECORDED`. shape (n,)
         controls: what guidance asks of each. shape (n, 3), as `Control`
         programs: what each declared; the rest of a row is not read. shape (n, k, 3)
         lengths: how many pieces each declared. shape (n,)
         cursors: the piece each is flying, kept up to date. shape (n,)
         helds: headings before the first piece [rad]. shape (n,)
-        wind: moves all of them.
+        winds: what moves each, now and after each step, gusts and all [m/s, east and north].
+            shape (n, steps + 1, 2)
         t: flight time [s].
         dt: the step [s].
         trace: where each is after each step, the present first; rows of recorded aircraft are
@@ -56,6 +68,7 @@ def fly_second(
         store(trace[i], 0, body)
         program = programs[i, : lengths[i]]
         for k in range(steps):
+            wind = Drift(winds[i, k, 0], winds[i, k, 1])
             if pilots[i] == RECORDED:
                 after = body_at(trace[i], k + 1)
             elif pilots[i] == PROGRAMMED:
@@ -65,6 +78,10 @@ def fly_second(
             else:
                 control = Control(controls[i, 0], controls[i, 1], controls[i, 2])
                 after = lateral_step(body, control, can, wind, dt)
+            east, north = winds[i, k + 1, 0] - wind.east, winds[i, k + 1, 1] - wind.north
+            if (east != 0.0 or north != 0.0) and pilots[i] != RECORDED:
+                along = east * sin(after.heading) + north * cos(after.heading)
+                after = at_speed(after, after.tas - along)
             store(trace[i], k + 1, after)
             tallies[i, SWING] += abs(after.heading - body.heading)
             tallies[i, TRACK] += hypot(after.x - body.x, after.y - body.y)

@@ -19,6 +19,7 @@ from relguide.flying.documents import (
     PlanProposed,
     PlanRefused,
     PlanUnavailable,
+    PromiseChanged,
     Sample,
     SeparationLost,
     Unable,
@@ -66,6 +67,7 @@ class History:
                 | EngagementChanged()
                 | PlanRefused()
                 | ModeChanged()
+                | PromiseChanged()
                 | Unable()
                 | ForecastChanged()
             ):

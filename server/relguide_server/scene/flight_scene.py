@@ -34,6 +34,7 @@ from relguide.flying.documents import (
     PlanProposed,
     PlanRefused,
     PlanUnavailable,
+    PromiseChanged,
     Sample,
     SeparationLost,
     Unable,
@@ -178,7 +179,7 @@ class FlightScene:
             case EngagementChanged():
                 if document.ident == link.pursuer:
                     self._change_engagement(document)
-            case PlanRefused() | Alert() | Unable():
+            case PlanRefused() | PromiseChanged() | Alert() | Unable():
                 pass  # for the navigation display
             case _:
                 assert_never(document)

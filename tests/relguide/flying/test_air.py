@@ -12,7 +12,9 @@ from relguide.flying.air import (
     TROPOPAUSE,
     Air,
     pressure,
+    pressure_altitude,
 )
+from relguide.flying.wind_profile import WindLevel, WindProfile
 from relguide.planning.wind import CALM, Wind
 from relguide.units import FT, KT
 
@@ -81,6 +83,11 @@ def test_pressure_falls_with_altitude_and_does_not_care_for_temperature(
     assert pressure(low) >= pressure(high)
     gas = pressure(low) / (air.density(low) * air.temperature(low))
     assert gas == pytest.approx(287.05287)
+
+
+@given(altitudes)
+def test_each_pressure_has_its_altitude(altitude: float) -> None:
+    assert pressure_altitude(pressure(altitude)) == pytest.approx(altitude, abs=1e-6)
 
 
 def test_the_tropopause_has_no_step() -> None:
@@ -153,4 +160,11 @@ def test_air_that_is_none_is_refused() -> None:
         Air(isa_deviation=288.0)
     with pytest.raises(ValueError, match="wind must be a Wind, not 12"):
         Air(wind=12.0)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="gusts must lie in 0 … 10 m/s, not -1 m/s"):
+        Air(gusts=-1.0)
+    profile = WindProfile(levels=(WindLevel(0.0, Wind(east=5.0)),))
+    with pytest.raises(ValueError, match="wind must be left out where a profile gives it"):
+        Air(wind=Wind(east=5.0), profile=profile)
+    with pytest.raises(ValueError, match="profile must be a WindProfile, not 12"):
+        Air(profile=12)  # type: ignore[arg-type]
     assert Air(isa_deviation=MAX_ISA_DEVIATION).density(11_000.0) > 0.0

@@ -2,15 +2,21 @@
 
 from collections.abc import Iterable
 from dataclasses import replace
+from math import pi, sin
+from types import SimpleNamespace
 
 import pytest
 
 from relguide.flying import simulation
 from relguide.flying.airframe import Airframe
+from relguide.flying.braking import learn_braking
 from relguide.flying.documents import Document, FlightEnded, Sample
+from relguide.flying.fleet import Fleet
 from relguide.flying.flight import world_of
+from relguide.flying.pursuit import begin_pursuit
 from relguide.flying.simulation import simulate
 from relguide.flying.world import World
+from relguide.kernels.flight.flight_records import Control
 from tests.relguide.flying.guidance.beliefs import behind
 
 FAST = behind(along=45_000.0, tas=235.0, leader_tas=150.0)
@@ -53,6 +59,46 @@ def test_weak_brakes_are_found_out_before_d_min_is_lost(deceleration: float) -> 
     assert isinstance(unlearned, FlightEnded)
     assert unlearned.results[0].least_separation < result.least_separation
     assert deceleration > 0.25 or unlearned.results[0].losses
+
+
+def wobbling(amplitude: float, period: float = 17.0) -> list[Document]:
+    """Flown with an airspeed that swings by an amplitude [m/s]."""
+    fly_second = Fleet.fly_second
+
+    def swing(fleet: Fleet, t: float) -> None:
+        fly_second(fleet, t)
+        turn = 2.0 * pi / period
+        fleet.states[0, 5] += amplitude * (sin(turn * (t + 1.0)) - sin(turn * t))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Fleet, "fly_second", swing)
+        return flown(world())
+
+
+@pytest.mark.parametrize("amplitude", [0.1, 0.3, 1.0])
+def test_a_wobble_of_the_airspeed_is_no_weak_brake(amplitude: float) -> None:
+    *_, steady = flown(world())
+    *_, end = wobbling(amplitude)
+    assert isinstance(end, FlightEnded)
+    assert isinstance(steady, FlightEnded)
+    assert end.results[0].joined
+    assert end.results[0].join_time == pytest.approx(steady.results[0].join_time, abs=5.0)
+
+
+def test_what_was_learnt_is_forgotten_again() -> None:
+    built = world(max_deceleration=0.3, idle_deceleration=0.3)
+    fleet = Fleet(built, 0.05)
+    one = begin_pursuit(built, fleet, built.links[0])
+    advice = SimpleNamespace(control=Control(0.0, 0.0, 100.0))
+    one.advice = advice  # type: ignore[assignment]  # only what is asked of it is looked at
+    for rate, learnt in ((0.3, 0.3), (1.2, one.brakes.full)):
+        one.braked, tas = (), 230.0
+        for _ in range(15):
+            tas -= rate
+            fleet.states[0, 5] = tas
+            learn_braking(one, fleet)
+        assert fleet.believed_limits[0].deceleration == pytest.approx(learnt, abs=0.01)
+    assert one.assignment.idle_deceleration == one.brakes.idle
 
 
 @pytest.mark.parametrize(

@@ -40,6 +40,7 @@ export const UNABLE_TO: Record<UnableReason, string> = {
 /** What an alert is about; a loss of separation also says when. */
 export const ALERTED: Record<AlertSubject, string> = {
   separation: "SEP",
+  spacing: "SPACING",
   speed: "LDR SPEED",
   data: "LDR DATA",
   geometry: "LDR PATH",
@@ -64,6 +65,7 @@ export const REPLANNED: Record<PlanReason, string> = {
   leader_elsewhere: "LDR OFF PATH – REPLAN",
   intent_received: "LDR INTENT – REPLAN",
   intent_withdrawn: "LDR INTENT LOST – REPLAN",
+  braking: "WEAK BRAKING – REPLAN",
 };
 
 export const ENTERED: Record<Mode, string> = {

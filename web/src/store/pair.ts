@@ -74,6 +74,7 @@ export function isAbout(document: Document, pair: PairCard): boolean {
     case "plan_unavailable":
     case "plan_refused":
     case "mode_changed":
+    case "promise_changed":
     case "alert":
     case "unable":
     case "separation_lost":

@@ -68,6 +68,9 @@ export function reduce(flight: Flight, document: Document, arrival: Arrival): vo
       flight.modeSince.value = arrival.since;
       log(flight, { t, kind: "mode", text: document.message });
       return;
+    case "promise_changed":
+      log(flight, { t, kind: "plan", text: document.message });
+      return;
     case "alert":
       reduceAlert(flight, document);
       return;

@@ -1,0 +1,169 @@
+"""An extended Kalman filter that follows another aircraft over the ground by what it reports.
+
+    state: x, y, v, χ, r            ẋ = v sin χ,  ẏ = v cos χ,  v̇ = noise,  χ̇ = r,  ṙ = noise
+
+The coordinated turn is flown in closed form, as by `advance`; so are its derivatives and the effect
+of white noise on v and r (Bar-Shalom, Li, Kirubarajan, Estimation with Applications to Tracking and
+Navigation, 2001, §6.2 and §11.7). A reported velocity is compared along and across the track that
+is believed. There it measures v and vχ alone, so the four measurements are taken one by one, which
+is the same as all at once.
+
+Noise that explains the beginning of a turn would make r tremble on straights. So it is small, and a
+velocity that it does not explain starts a manoeuvre: before it is taken, the uncertainty of the
+turn rate, or of the speed, grows until it explains it.
+"""
+
+from math import atan2, cos, hypot, sin
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.motion import advance
+from relguide.kernels.base.roots import FloatArray
+from relguide.units import DEG
+
+X, Y, SPEED, TRACK, RATE = 0, 1, 2, 3, 4
+"""Rows of a state: east and north over the ground [m], ground speed v [m/s], track χ [rad,
+continuous], turn rate r of the track [rad/s, positive to the right]."""
+SPEED_NOISE = 0.25**2
+"""Spectral density of the acceleration [m²/s³]: an airliner's 0.2–0.7 m/s² lasts for seconds."""
+RATE_NOISE = (0.1 * DEG) ** 2
+"""Spectral density of ṙ [rad²/s³]. With σ of 1.2 m/s (NACv 2) at 230 m/s, a straight then shows
+0.08°/s of turn rate, and the beginning of an airliner's turn 0.2°/s after 4 s; turns themselves are
+manoeuvres."""
+FIRST_RATE = 0.7 * DEG
+"""σ of the turn rate at first sight [rad/s]: most fly straight, some turn at 1–1.5°/s."""
+GATE = 2.7
+"""A velocity so many σ off is no noise [σ]: of 150 seconds on a straight, one passes for it."""
+ONSET = 1.5
+"""Δχ/Δr of a turn rate that has grown evenly for 3 s, when it stands out of the noise [s]."""
+
+
+@njit(cache=True, nogil=True)
+def begin(
+    x: float, y: float, east: float, north: float, position_sigma: float, velocity_sigma: float
+) -> tuple[FloatArray, FloatArray]:
+    """What is known at first sight, from one report.
+
+    Args:
+        x: east over the ground [m].
+        y: north over the ground [m].
+        east: ground velocity [m/s].
+        north: the same [m/s].
+        position_sigma: of x and of y [m], > 0.
+        velocity_sigma: of east and of north [m/s], > 0.
+
+    Returns:
+        state (5,) and its covariance (5, 5).
+    """
+    speed = hypot(east, north)
+    state = np.array([x, y, speed, atan2(east, north), 0.0])
+    covariance = np.zeros((5, 5))
+    covariance[X, X] = covariance[Y, Y] = position_sigma * position_sigma
+    covariance[SPEED, SPEED] = velocity_sigma * velocity_sigma
+    covariance[TRACK, TRACK] = (velocity_sigma / max(speed, velocity_sigma)) ** 2
+    covariance[RATE, RATE] = FIRST_RATE * FIRST_RATE
+    return state, covariance
+
+
+@njit(cache=True, nogil=True)
+def predict(state: FloatArray, covariance: FloatArray, dt: float) -> tuple[FloatArray, FloatArray]:
+    """State and covariance dt [s] later, without a report."""
+    v, rate = state[SPEED], state[RATE]
+    x, y, track = advance(state[X], state[Y], state[TRACK], v, rate, dt)
+    half = 0.5 * rate * dt
+    # chord = v dt sinc(half) on the mean track; the series of the slope is exact to 1e-13 there
+    if abs(half) < 1e-3:
+        sinc, slope = 1.0 - half * half / 6.0, -half / 3.0 + half**3 / 30.0
+    else:
+        sinc = sin(half) / half
+        slope = (cos(half) - sinc) / half
+    along = np.array([sin(state[TRACK] + half), cos(state[TRACK] + half)])
+    across = np.array([along[1], -along[0]])
+    moved = np.eye(5)
+    moved[:2, SPEED] = dt * sinc * along
+    moved[:2, TRACK] = v * dt * sinc * across
+    moved[:2, RATE] = 0.5 * v * dt * dt * (slope * along + sinc * across)
+    moved[TRACK, RATE] = dt
+    later = moved @ covariance @ moved.T
+    # ∫ of what noise on v̇ and ṙ does: columns are the ways it comes to by now, each in its powers
+    reach = v * across
+    later[SPEED, SPEED] += SPEED_NOISE * dt
+    later[TRACK, TRACK] += RATE_NOISE * dt**3 / 3.0
+    later[RATE, RATE] += RATE_NOISE * dt
+    later[TRACK, RATE] += RATE_NOISE * dt * dt / 2.0
+    later[RATE, TRACK] += RATE_NOISE * dt * dt / 2.0
+    for i in range(2):
+        for j in range(2):
+            later[i, j] += SPEED_NOISE * dt**3 / 3.0 * along[i] * along[j]
+            later[i, j] += RATE_NOISE * dt**5 / 20.0 * reach[i] * reach[j]
+        for row, noise in (
+            (SPEED, SPEED_NOISE * dt * dt / 2.0 * along[i]),
+            (TRACK, RATE_NOISE * dt**4 / 8.0 * reach[i]),
+            (RATE, RATE_NOISE * dt**3 / 6.0 * reach[i]),
+        ):
+            later[i, row] += noise
+            later[row, i] += noise
+    return np.array([x, y, v, track, rate]), later
+
+
+@njit(cache=True, nogil=True)
+def update(
+    state: FloatArray, covariance: FloatArray, x: float, y: float, east: float, north: float,
+    position_sigma: float, velocity_sigma: float,
+) -> tuple[FloatArray, FloatArray, float]:  # fmt: skip
+    """State and covariance with a report of the same moment taken in.
+
+    Args:
+        state: as predicted. shape (5,)
+        covariance: of it. shape (5, 5)
+        x: reported, east over the ground [m].
+        y: reported, north over the ground [m].
+        east: reported ground velocity [m/s].
+        north: the same [m/s].
+        position_sigma: of x and of y [m], > 0.
+        velocity_sigma: of east and of north [m/s], > 0.
+
+    Returns:
+        state, covariance, and how surprising the report was: its normalised innovation squared,
+        4 in the mean where nothing changes, before any manoeuvre is assumed.
+    """
+    v = max(state[SPEED], velocity_sigma)  # no track can be told of an aircraft that stands
+    s, c = sin(state[TRACK]), cos(state[TRACK])
+    seen = np.array([east * c - north * s, east * s + north * c - state[SPEED], x, y])
+    seen[2] -= state[X]
+    seen[3] -= state[Y]
+    variances = np.array([velocity_sigma, velocity_sigma, position_sigma, position_sigma]) ** 2
+    rows = np.array([[0.0, 0.0, 0.0, v, 0.0], [0.0, 0.0, 1.0, 0.0, 0.0],
+                     [1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0, 0.0]])  # fmt: skip
+    _, _, surprise = _take(state, covariance, seen, variances, rows)
+    spread = covariance.copy()
+    need = (seen[0] / GATE) ** 2 - v * v * covariance[TRACK, TRACK] - variances[0]
+    if need > 0.0:
+        grown = need / (v * v * ONSET * ONSET)
+        spread[TRACK, TRACK] += grown * ONSET * ONSET
+        spread[TRACK, RATE] += grown * ONSET
+        spread[RATE, TRACK] += grown * ONSET
+        spread[RATE, RATE] += grown
+    need = (seen[1] / GATE) ** 2 - covariance[SPEED, SPEED] - variances[1]
+    if need > 0.0:
+        spread[SPEED, SPEED] += need
+    state, spread, _ = _take(state, spread, seen, variances, rows)
+    return state, spread, surprise
+
+
+@njit(cache=True, nogil=True)
+def _take(
+    state: FloatArray, covariance: FloatArray, seen: FloatArray, variances: FloatArray,
+    rows: FloatArray,
+) -> tuple[FloatArray, FloatArray, float]:  # fmt: skip
+    """Measurements one by one: what is seen beyond the state, variances, and what each measures."""
+    after, spread, surprise = np.zeros(5), covariance.copy(), 0.0
+    for k in range(len(seen)):
+        shared = spread @ rows[k]
+        variance = rows[k] @ shared + variances[k]
+        error = seen[k] - rows[k] @ after
+        surprise += error * error / variance
+        after += shared * (error / variance)
+        spread -= np.outer(shared, shared) / variance
+    return state + after, spread, surprise
