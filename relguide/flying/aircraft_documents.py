@@ -126,6 +126,8 @@ class GuidanceSample:
     """How long ago the leader was last heard of."""
     engagement: Engagement = "engaged"
     """How far the crew has engaged it."""
+    margin: Metre = 0.0
+    """What guidance keeps beside d_min for what it is not certain of; 0 where all is exact."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,6 +1,6 @@
 """What a pursuer knows of itself, its leader, the leader's intent and the air.
 
-Surveillance will stand between the two: guidance reads this and nothing else.
+Guidance reads this and nothing else.
 """
 
 from dataclasses import dataclass, replace
@@ -9,6 +9,7 @@ from math import hypot
 
 import numpy as np
 
+from relguide.flying.perception import CERTAIN, Spread
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.motion import advance
 from relguide.kernels.base.roots import FloatArray
@@ -24,6 +25,8 @@ from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, 
 SPARE: Metre = 20_000.0
 """Of the leader's flown path, D and so much more is kept, and assumed straight behind it at first
 sight [m]."""
+SEEMS = 3.0
+"""How many σ off something has to be to be news."""
 ROLLING_OUT: Radian = 3.0 * DEG
 """So near the heading that it holds, a leader is on it but for its roll [rad]."""
 ROOM = 600
@@ -98,6 +101,8 @@ class Belief:
     """The leader's flown path."""
     wind: Wind
     """As it is believed."""
+    spread: Spread = CERTAIN
+    """How uncertain all that is."""
     leader_age: Second = 0.0
     """How long ago the leader was last heard of; since then it is expected to fly on [s]."""
 
@@ -105,6 +110,21 @@ class Belief:
     def drift(self) -> Drift:
         """The wind as kernels take it."""
         return Drift(self.wind.east, self.wind.north)
+
+    @property
+    def place_slack(self) -> Metre:
+        """A leader so far from where it was expected may only seem to be [m]."""
+        return SEEMS * self.spread.place
+
+    @property
+    def speed_slack(self) -> MetrePerSecond:
+        """A speed so much off may only seem to be [m/s]."""
+        return SEEMS * self.spread.velocity
+
+    @property
+    def heading_slack(self) -> Radian:
+        """A heading so far off may only seem to be [rad]."""
+        return SEEMS * self.spread.velocity / max(self.leader.tas, 1.0)
 
     @cached_property
     def separation(self) -> Metre:

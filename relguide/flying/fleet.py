@@ -6,14 +6,14 @@ Guidance sees a `Belief`, never the world.
 """
 
 from dataclasses import replace
-from math import hypot, inf
+from math import cos, hypot, inf, sin
 
 import numpy as np
 
 from relguide.flying.air import Air
 from relguide.flying.aircraft import AircraftState
 from relguide.flying.airframe import Airframe
-from relguide.flying.belief import SPARE, Belief, FlownTrack
+from relguide.flying.belief import Belief, FlownTrack
 from relguide.flying.leaders.declared import (
     Program,
     TurnChoice,
@@ -23,10 +23,13 @@ from relguide.flying.leaders.declared import (
     turn_program,
 )
 from relguide.flying.leaders.recorded import RecordedLeader, steps_of_track
-from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
+from relguide.flying.perception import CERTAIN, Perceived, Perception
+from relguide.flying.world import Aircraft, Declared, Guided, Recorded, World
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.flight.energy import idle_deceleration
 from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits, limits_at
+from relguide.kernels.flight.gusts import STATE, gust_steps
+from relguide.kernels.flight.program import STRAIGHT
 from relguide.kernels.flight.second import (
     GUIDED,
     PROGRAMMED,
@@ -35,7 +38,7 @@ from relguide.kernels.flight.second import (
     least_between,
 )
 from relguide.planning.limits import POSITION, TAS
-from relguide.planning.situation import IntentPiece
+from relguide.planning.situation import IntentPiece, Wind
 from relguide.units import DEG, NM, Metre, MetrePerSecond, Radian, Second
 
 LEADERS_ACCELERATION = 0.1
@@ -44,6 +47,9 @@ OFF_INTENT: Metre = 0.5 * NM
 """So far from where it declared that it would be, a leader does not fly its intent [m]."""
 OFF_HEADING: Radian = 10.0 * DEG
 """… nor so far off the heading that it declared [rad]."""
+NEAR_HEADING: Radian = 5.0 * DEG
+"""So near the heading that it declared, a leader is on it but for what is not known of the wind
+[rad]."""
 NO_PROGRAM = np.zeros((0, 3))
 EDGE: Metre = 2_000.0
 """So near the edge of the plane a flight ends: before plans are refused for it [m]."""
@@ -52,12 +58,13 @@ EDGE: Metre = 2_000.0
 class Fleet:
     """The aircraft of a world in flight: one of the few things here that change."""
 
-    def __init__(self, world: World, step: Second) -> None:
+    def __init__(self, world: World, step: Second, seed: int = 0) -> None:
         """All aircraft where they begin.
 
         Args:
             world: gives them.
             step: of the integration; a whole number of them makes a second [s].
+            seed: of the gusts.
         """
         count, steps = len(world.aircraft), round(1.0 / step)
         self.world, self.step, self.steps = world, step, steps
@@ -79,9 +86,12 @@ class Fleet:
         ]
         self.declared: list[Program] = []
         self.recordings: dict[int, RecordedLeader] = {}
-        wind = world.air.wind_at(0.0, 0.0, 0.0, 0.0)
-        self.wind, self.drift = wind, Drift(wind.east, wind.north)
+        self.winds = np.zeros((count, steps + 1, 2))
+        self.gusts = np.zeros((count, STATE))
+        self.rng = np.random.default_rng([seed, count])
         for i, aircraft in enumerate(world.aircraft):
+            wind = self._wind_at(i, aircraft.altitude)
+            self.winds[i] = wind.east, wind.north
             can = limits_of(aircraft, aircraft.airframe, world.air)
             self.limits[i] = can
             heading = wrap(aircraft.heading)
@@ -139,10 +149,44 @@ class Fleet:
             steps = np.minimum(np.arange(first, first + self.steps + 1), len(recording.rows) - 1)
             self.trace[i] = recording.rows[steps]
             self.altitudes[i] = recording.altitude[steps]
+        self._blow(t)
         fly_second(
             self.states, self.limits, self.pilots, self.controls, self.programs, self.lengths,
-            self.cursors, self.helds, self.drift, t, self.step, self.trace, self.tallies,
+            self.cursors, self.helds, self.winds, t, self.step, self.trace, self.tallies,
         )  # fmt: skip
+
+    def _wind_at(self, i: int, altitude: Metre, t: Second = 0.0) -> Wind:
+        """The wind where an aircraft is, without gusts."""
+        x, y = self.states[i, :2].tolist()
+        return self.world.air.wind_at(x, y, altitude, t)
+
+    def _blow(self, t: Second) -> None:
+        """The winds of the second from t on, which no longer are what they were at the start."""
+        air = self.world.air
+        if air.profile is not None:
+            shares = np.linspace(0.0, 1.0, self.steps + 1)[:, None]
+            for i, altitudes in enumerate(self.altitudes):
+                ends = [self._wind_at(i, float(altitudes[k]), t) for k in (0, -1)]
+                before, after = (np.array([wind.east, wind.north]) for wind in ends)
+                self.winds[i] = before + shares * (after - before)
+        if air.gusts == 0.0:
+            return
+        for i, (_, _, heading, _, _, tas, _) in enumerate(self.states.tolist()):
+            white = self.rng.standard_normal((self.steps + 1, 2))
+            along, across = gust_steps(self.gusts[i], air.gusts, tas, self.step, white).T
+            if air.profile is None:
+                wind = air.wind
+                self.winds[i] = wind.east, wind.north
+            self.winds[i, :, 0] += along * sin(heading) + across * cos(heading)
+            self.winds[i, :, 1] += along * cos(heading) - across * sin(heading)
+
+    def drift(self, i: int) -> Drift:
+        """The wind that moves an aircraft now, gusts and all."""
+        return Drift(*self.winds[i, -1].tolist())
+
+    def blew(self, i: int) -> Drift:
+        """The wind that moved an aircraft in the last second."""
+        return Drift(*self.winds[i, :-1].mean(axis=0).tolist())
 
     def control(self, i: int, control: Control) -> None:
         """What a guided aircraft is to fly for the next second."""
@@ -151,6 +195,11 @@ class Fleet:
     def body(self, i: int) -> Body:
         """An aircraft now."""
         return Body(*self.states[i].tolist())
+
+    def wind(self, i: int, k: int | None = None) -> Wind:
+        """The wind that moves an aircraft now, or did at a step of the last second."""
+        east, north = self.winds[i, -1 if k is None else k].tolist()
+        return Wind(east=east, north=north)
 
     def state(self, i: int, k: int | None = None) -> AircraftState:
         """An aircraft now, or at a step of the last second, as documents show it."""
@@ -184,8 +233,9 @@ class Fleet:
         t: Second,
         known: bool,
         declared: "Fleet | None" = None,
+        seen: Perceived | None = None,
     ) -> Belief:
-        """What aircraft i knows of itself and of aircraft j, exactly.
+        """What aircraft i knows of itself and of aircraft j.
 
         Args:
             i: the pursuer.
@@ -194,14 +244,24 @@ class Fleet:
             t: flight time [s].
             known: whether the leader's intent is.
             declared: the leader alone, as it declared to fly; `None` if it flies what it declared.
+            seen: what i perceives of j and the air; `None` if it sees the truth.
         """
-        leader = self.body(j)
+        leader = self.body(j) if seen is None else seen.leader
         source, k = (self, j) if declared is None else (declared, 0)
         program, cursor = source.declared[k], int(source.cursors[k])
         known = known and bool(source.pilots[k] == PROGRAMMED)
         can = limits_at(self.limits, j)
         intent = remaining(program, cursor, leader, can, t) if known else ()
+        rows, held = program.rows, program.held
+        holds = straight_heading(program, cursor)
+        if known and seen is not None:
+            # on a straight it holds what is seen of its heading: the wind there is not known better
+            straight = cursor == len(rows) or rows[cursor, 0] == STRAIGHT
+            if straight and abs(leader.heading - holds) < NEAR_HEADING:
+                holds = leader.heading
+            rows, cursor, held = rows[cursor:], 0, holds
         own = self.body(i)
+        wind = self.wind(i) if seen is None else Wind(east=seen.wind.east, north=seen.wind.north)
         return Belief(
             t=t,
             own=own,
@@ -210,19 +270,22 @@ class Fleet:
             leader_limits=self.believed_limits[j],
             intent=intent,
             intent_known=known,
-            program=program.rows if known else NO_PROGRAM,
+            program=rows if known else NO_PROGRAM,
             cursor=cursor if known else 0,
-            held=program.held if known else leader.heading,
-            holds=straight_heading(program, cursor) if known else leader.heading,
+            held=held if known else leader.heading,
+            holds=holds if known else leader.heading,
             leader_tas=leader.tas,
             track=track,
-            wind=self.believed_air.wind_at(own.x, own.y, float(self.altitudes[i, -1]), t),
+            wind=wind,
+            leader_age=0.0 if seen is None else seen.age,
+            spread=CERTAIN if seen is None else seen.spread,
         )
 
     def as_declared(self, j: int, intent: tuple[IntentPiece, ...]) -> "Fleet":
         """Aircraft j alone, as it declared that it would fly."""
         alone = replace(self.world.aircraft[j], pilot=Declared(intent=intent))
-        return Fleet(World(aircraft=(alone,), links=(), air=self.world.air), self.step)
+        calm = replace(self.world.air, gusts=0.0)
+        return Fleet(World(aircraft=(alone,), links=(), air=calm), self.step)
 
     def breaks_its_word(self, j: int, declared: "Fleet") -> bool:
         """Whether aircraft j is far from where it declared that it would be."""
@@ -231,10 +294,10 @@ class Fleet:
             return True
         return abs(wrap_signed(float(here[2] - there[2]))) > OFF_HEADING
 
-    def begin_track(self, link: Link) -> FlownTrack:
-        """The leader's flown path, at first sight."""
-        leader = self.body(self.world.index(link.leader))
-        return FlownTrack(leader, self.drift, 0.0, link.slot_distance + SPARE)
+    def see(self, perception: Perception, i: int, j: int, t: Second) -> Perceived:
+        """What aircraft i perceives of aircraft j and of the air now."""
+        measured = self.blew(i) if t > 0.0 else None
+        return perception.see(t, self.body(j), self.drift(j), measured)
 
 
 def limits_of(aircraft: Aircraft, airframe: Airframe, air: Air) -> Limits:

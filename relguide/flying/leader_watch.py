@@ -91,6 +91,7 @@ def _route_is_news(shown: Belief, seen: Belief) -> bool:
     """Whether the route last shown is no longer what is expected."""
     if shown.intent_known != seen.intent_known:
         return True
-    if abs(shown.leader.tas - seen.leader.tas) > ROUTE_SPEED:
+    if abs(shown.leader.tas - seen.leader.tas) > ROUTE_SPEED + seen.speed_slack:
         return True
-    return abs(wrap_signed(seen.final_heading - shown.final_heading)) > ROUTE_TURNED
+    turned = abs(wrap_signed(seen.final_heading - shown.final_heading))
+    return turned > ROUTE_TURNED + seen.heading_slack

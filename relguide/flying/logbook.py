@@ -80,8 +80,7 @@ class PairNames(NamedTuple):
 
 def sample(
     t: Second,
-    aircraft: Sequence[tuple[str, AircraftState]],
-    wind: Wind,
+    aircraft: Sequence[tuple[str, AircraftState, Wind]],
     links: Sequence[tuple[PairNames, Advice, Metre]],
     since: Second,
 ) -> Sample:
@@ -89,17 +88,16 @@ def sample(
 
     Args:
         t: flight time [s].
-        aircraft: ident and state of each.
-        wind: moves all of them, and the slots.
+        aircraft: ident and state of each, and the wind that moves it.
         links: of each, who flies, the last advice that guidance gave, and the least separation.
         since: how long ago it was given [s]; the slots have moved since.
     """
-    samples = tuple(_aircraft_sample(ident, state, wind) for ident, state in aircraft)
+    samples = tuple(_aircraft_sample(ident, state, wind) for ident, state, wind in aircraft)
     return Sample(
         t=t,
         aircraft=samples,
         guidance=tuple(
-            _guidance_sample(t, samples, names, advice, least, since, wind)
+            _guidance_sample(t, samples, names, advice, least, since)
             for names, advice, least in links
         ),
     )
@@ -112,7 +110,6 @@ def _guidance_sample(
     advice: Advice,
     least: Metre,
     since: Second,
-    wind: Wind,
 ) -> GuidanceSample:
     own, other = find_by_ident(samples, names.pursuer), find_by_ident(samples, names.leader)
     east, north = other.x - own.x, other.y - own.y
@@ -124,6 +121,7 @@ def _guidance_sample(
         closure = (relative_east * east + relative_north * north) / separation
     slot = advice.slot
     half_turn = 0.5 * slot.turn_rate * since
+    wind = advice.wind
     slot_east = slot.tas * sin(slot.heading + half_turn) + wind.east
     slot_north = slot.tas * cos(slot.heading + half_turn) + wind.north
     slot_x, slot_y = slot.x + slot_east * since, slot.y + slot_north * since
@@ -146,6 +144,7 @@ def _guidance_sample(
         joined=advice.joined,
         alert=advice.alert,
         leader_age=advice.leader_age + since if advice.leader_age > 0.0 else 0.0,
+        margin=advice.margin,
         engagement=advice.engagement,
     )
 

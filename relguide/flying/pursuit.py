@@ -3,14 +3,17 @@
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from relguide.flying.aircraft_documents import Loss
-from relguide.flying.belief import Belief, FlownTrack, coasting
+from relguide.flying.belief import SPARE, Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
 from relguide.flying.fleet import Fleet, dependable_deceleration, limits_of
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
 from relguide.flying.logbook import PairNames
+from relguide.flying.perception import Perceived, Perception
 from relguide.flying.world import Link, World
 from relguide.units import Metre, MetrePerSecond, Radian, Second
 
@@ -76,6 +79,10 @@ class Pursuit:
     """Which of the fleet."""
     assignment: Assignment
     track: FlownTrack
+    perception: Perception | None
+    """`None` where the pursuer sees the truth."""
+    seen: Perceived | None
+    """What it last perceived; `None` as above."""
     known: bool
     """Whether the leader's intent is."""
     declared: Fleet | None
@@ -91,6 +98,8 @@ class Pursuit:
     """Whether the separation is below d_min."""
     braked: tuple[MetrePerSecond, ...] = ()
     """The airspeeds of the last seconds, all of them with braking asked for in earnest [m/s]."""
+    seen_at: Second = 0.0
+    """When that was, flight time [s]."""
     doubted: int = 0
     """For how many seconds the leader has not flown what it declared."""
 
@@ -101,17 +110,38 @@ class Pursuit:
         """What the pursuer knows now."""
         if self.heard is not None:
             return coasting(self.heard, t, fleet.body(self.pursuer))
-        return fleet.belief(self.pursuer, self.leader, self.track, t, self.known, self.declared)
+        seen = self.seen
+        if self.perception is not None and (seen is None or t > self.seen_at):
+            seen = fleet.see(self.perception, self.pursuer, self.leader, t)
+            self.seen, self.seen_at = seen, t
+        return fleet.belief(
+            self.pursuer, self.leader, self.track, t, self.known, self.declared, seen
+        )
 
 
 def begin_pursuit(
-    world: World, fleet: Fleet, link: Link, engagement: Engagement = "engaged"
+    world: World, fleet: Fleet, link: Link, engagement: Engagement = "engaged", seed: int = 0
 ) -> Pursuit:
-    """A link at the start of a flight."""
+    """A link at the start of a flight.
+
+    Args:
+        world: as it begins.
+        fleet: its aircraft.
+        link: one of its links.
+        engagement: how far guidance is engaged.
+        seed: of what is not perceived exactly.
+    """
     i, j = world.index(link.pursuer), world.index(link.leader)
-    intent, track = link.declared_intent, fleet.begin_track(link)
+    perception, seen = None, None
+    leader, drift = fleet.body(j), fleet.drift(j)
+    if world.perceives:
+        perception = Perception(world, i, np.random.default_rng([seed, i, j]))
+        seen = fleet.see(perception, i, j, 0.0)
+        leader, drift = seen.leader, seen.wind
+    track = FlownTrack(leader, drift, 0.0, link.slot_distance + SPARE)
+    intent = link.declared_intent
     declared = None if intent is None else fleet.as_declared(j, intent)
-    belief = fleet.belief(i, j, track, 0.0, link.intent_known, declared)
+    belief = fleet.belief(i, j, track, 0.0, link.intent_known, declared, seen)
     assignment = assignment_of(world, link)
     return Pursuit(
         link=link,
@@ -120,6 +150,8 @@ def begin_pursuit(
         leader=j,
         assignment=assignment,
         track=track,
+        perception=perception,
+        seen=seen,
         known=belief.intent_known,
         declared=declared,
         view=LeaderView(belief),

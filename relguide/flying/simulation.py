@@ -44,6 +44,7 @@ from relguide.flying.pursuit import Pursuit, begin_pursuit
 from relguide.flying.world import World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
 from relguide.planning.plan import Planner, plan
+from relguide.planning.situation import Wind
 from relguide.units import Metre, Second
 
 
@@ -113,9 +114,9 @@ def _simulate(
     after_joining: Second,
     engagement: Engagement,
 ) -> Iterator[Document]:
-    fleet = Fleet(world, step)
+    fleet = Fleet(world, step, start.seed)
     yield start
-    pursuits = [begin_pursuit(world, fleet, link, engagement) for link in world.links]
+    pursuits = [begin_pursuit(world, fleet, link, engagement, start.seed) for link in world.links]
     for one in pursuits:
         yield expected_route(one, one.view.shown)
     for second in count():
@@ -179,10 +180,16 @@ def _start_document(
             )
             for link in world.links
         ),
-        wind=wind_card(world.air.wind),
+        wind=wind_card(_wind_at_start(world)),
         step=step,
         seed=seed,
     )
+
+
+def _wind_at_start(world: World) -> Wind:
+    """The wind where the first pursuer begins; at the first aircraft where there is none."""
+    first = world.aircraft[world.index(world.links[0].pursuer) if world.links else 0]
+    return world.air.wind_at(first.x, first.y, first.altitude, 0.0)
 
 
 def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) -> Iterator[Document]:
@@ -207,7 +214,7 @@ def _guide(one: Pursuit, fleet: Fleet, planner: Planner, t: Second) -> Iterator[
     learn_braking(one, fleet)
     yield from doubt_leader(one, fleet, t)
     belief = one.belief(fleet, t)
-    one.track.add(belief.leader, fleet.drift, t)
+    one.track.add(belief.leader, belief.drift, t)
     yield from watch_leader(one, belief)
     one.memory, advice = advise(one.memory, belief, one.assignment, planner)
     for event in advice.events:
@@ -285,6 +292,7 @@ def _sample(
         if one.advice is not None
     ]
     aircraft = [
-        (aircraft.ident, fleet.state(i, step)) for i, aircraft in enumerate(fleet.world.aircraft)
+        (aircraft.ident, fleet.state(i, step), fleet.wind(i, step))
+        for i, aircraft in enumerate(fleet.world.aircraft)
     ]
-    return sample(t + since, aircraft, fleet.wind, links, since)
+    return sample(t + since, aircraft, links, since)

@@ -7,6 +7,7 @@ from relguide.flying.air import STANDARD_AIR, Air
 from relguide.flying.airframe import Airframe
 from relguide.flying.envelope import envelope_fault
 from relguide.flying.guidance.settings import DEFAULT, Settings
+from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.inputs import Range, expect, expect_within, text, truth
 from relguide.planning.limits import (
@@ -159,7 +160,10 @@ class World:
     air: Air = STANDARD_AIR
     """What physics asks."""
     believed_air: Air | None = None
-    """What guidance believes; the same if left out."""
+    """What guidance believes at the start, before it has measured the wind; the truth, if left
+    out."""
+    surveillance: Surveillance = EXACT
+    """How pursuers see their leaders."""
     settings: Settings = DEFAULT
 
     def __post_init__(self) -> None:
@@ -169,6 +173,7 @@ class World:
         expect("air", self.air, Air)
         if self.believed_air is not None:
             expect("believed_air", self.believed_air, Air)
+        expect("surveillance", self.surveillance, Surveillance)
         expect("settings", self.settings, Settings)
         flying = {aircraft.ident: aircraft for aircraft in self.aircraft}
         if len(flying) < len(self.aircraft):
@@ -198,6 +203,12 @@ class World:
         )
         if fault:
             raise ValueError(fault)
+
+    @property
+    def perceives(self) -> bool:
+        """Whether guidance has to find out what it knows; if not, it sees the truth."""
+        inexact = self.surveillance.kind != "exact" or self.air.gusts > 0.0
+        return inexact or self.believed_air not in (None, self.air)
 
     def index(self, ident: str) -> int:
         """Which of the aircraft has an ident."""

@@ -65,7 +65,7 @@ from relguide.kernels.flight.marks import mark_at
 from relguide.planning.phrases import distance
 from relguide.planning.plan import Planner
 from relguide.planning.slot import slot_frame
-from relguide.units import Second
+from relguide.units import Metre, Second
 
 
 def advise(
@@ -149,7 +149,12 @@ def _stay_or_change(
     committed, right = place_on(committed, belief, memory.progress.s)
     memory = memory._replace(committed=committed)
     now = memory.leader  # noticed this second
-    changed = leader_change(memory.expected, now, settings.leader_turned, settings.leader_speed)
+    changed = leader_change(
+        memory.expected,
+        now,
+        settings.leader_turned + belief.heading_slack,
+        settings.leader_speed + belief.speed_slack,
+    )
     as_forecast = memory.forecast is not None and leader_is_as_forecast(
         memory.forecast, belief, assignment
     )
@@ -158,7 +163,7 @@ def _stay_or_change(
         return _plan_again(memory, belief, assignment, planner, reason="deviation")
     if not as_forecast and (
         now.intent_known != memory.expected.intent_known
-        or slot_mismatch(belief, committed) > settings.slot_moved
+        or slot_mismatch(belief, committed) > settings.slot_moved + _slot_slack(belief, committed)
     ):
         stay = 0.0 if is_steady(memory, belief, assignment) else settings.better_while_turning
         reason: PlanReason = changed or "leader_elsewhere"
@@ -175,6 +180,12 @@ def _stay_or_change(
     if isinstance(found, NotBetter):
         return memory, events
     return fly_proposal(memory, belief, assignment, found, "better_plan", events)
+
+
+def _slot_slack(belief: Belief, committed: Committed) -> Metre:
+    """How far the slot may only seem to have moved, where it will be when the plan ends [m]."""
+    left = max(committed.due - belief.t, 0.0)
+    return hypot(belief.place_slack, belief.speed_slack * left)
 
 
 def _is_overdue(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
@@ -332,6 +343,8 @@ def _advice(
         slot=_slot(memory, belief, assignment),
         slot_open=belief.slot_open(assignment.slot_distance),
         to_slot=done.to_slot,
+        wind=belief.wind,
+        margin=assignment.margin,
         along=done.to_slot + assignment.aim - assignment.slot_distance,
         across=done.right,
         time_to_go=go,
@@ -359,8 +372,8 @@ def _slot(memory: Memory, belief: Belief, assignment: Assignment) -> Slot:
         ahead = place - last[on.S]
         heading = float(last[on.HEADING])
         return Slot(
-            float(last[on.X]) + ahead * sin(heading) + belief.wind.east * since,
-            float(last[on.Y]) + ahead * cos(heading) + belief.wind.north * since,
+            float(last[on.X]) + ahead * sin(heading) + course.wind.east * since,
+            float(last[on.Y]) + ahead * cos(heading) + course.wind.north * since,
             wrap(heading),
             course.slot_tas,
         )

@@ -35,6 +35,8 @@ class Assignment:
     spacing: Second = 0.0
     """Time behind the leader to keep [s]; 0 where a distance is kept."""
     settings: Settings
+    margin: Metre = 0.0
+    """What is kept beside d_min for what is not certain [m]."""
 
     @cached_property
     def planned_bank(self) -> Radian:
@@ -44,14 +46,20 @@ class Assignment:
     @cached_property
     def aim(self) -> Metre:
         """Where in the gate the pursuer goes: D, or what keeps d_min with a buffer [m]."""
-        wanted = self.min_separation + self.settings.separation_buffer
+        wanted = self.min_separation + self.settings.separation_buffer + self.margin
         gate = self.slot_distance + IN_GATE * self.settings.joined_along
         return min(max(self.slot_distance, wanted), gate)
 
     @cached_property
     def buffered_separation(self) -> Metre:
         """The separation that new plans should keep [m]: d_min and a buffer, within the aim."""
-        return min(self.min_separation + self.settings.separation_buffer, self.aim)
+        wanted = self.min_separation + self.settings.separation_buffer + self.margin
+        return min(wanted, self.aim)
+
+    @cached_property
+    def kept_separation(self) -> Metre:
+        """What a flight ahead must keep to be flown [m]: d_min and the margin, within the aim."""
+        return min(self.min_separation + self.margin, self.buffered_separation)
 
     @cached_property
     def gains(self) -> Gains:

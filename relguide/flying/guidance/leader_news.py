@@ -15,6 +15,12 @@ STEADY: MetrePerSecond = 0.1
 """A speed that changes less in a second is held [m/s]."""
 
 
+SMOOTH = 0.2
+"""Share that each second has in what is seen of a change of speed, where reports are noisy."""
+NOISE_LEFT = 0.25
+"""Share of the noise of a velocity that is then left in it, and more [1/s]."""
+
+
 def notice_leader(memory: Memory, belief: Belief, assignment: Assignment) -> Memory:
     """Remember when the leader last did something new, and how fast it changes its speed.
 
@@ -23,12 +29,16 @@ def notice_leader(memory: Memory, belief: Belief, assignment: Assignment) -> Mem
     """
     settings, now, was = assignment.settings, expectation(belief), memory.leader
     rate = now.tas - was.tas
-    trend = rate if abs(rate) > STEADY else 0.0
+    if belief.spread.velocity > 0.0:  # what is seen of a second is noise
+        rate = memory.leader_rate + SMOOTH * (rate - memory.leader_rate)
+    steady = STEADY + NOISE_LEFT * belief.spread.velocity
+    trend = rate if abs(rate) > steady else 0.0
     moved = turns_unannounced(belief, assignment) or trend != 0.0
     moved = moved or now.intent_known != was.intent_known
     changed = belief.t if moved else memory.changed
-    memory = memory._replace(leader=now, leader_trend=trend, changed=changed)
-    if leader_change(was, now, settings.leader_turned, settings.leader_speed) is not None:
+    memory = memory._replace(leader=now, leader_trend=trend, leader_rate=rate, changed=changed)
+    turned = settings.leader_turned + belief.heading_slack
+    if leader_change(was, now, turned, settings.leader_speed + belief.speed_slack) is not None:
         memory = memory._replace(forecast=None)
     return memory
 

@@ -21,6 +21,7 @@ from relguide.kernels.flight.flight_records import Control
 from relguide.kernels.flight.guide import HOLD, Progress
 from relguide.planning.acceptance import Fault
 from relguide.planning.plan import Reason
+from relguide.planning.situation import Wind
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
@@ -91,6 +92,8 @@ class Memory(NamedTuple):
     """What was known of the leader a second ago."""
     leader_trend: MetrePerSecond
     """How fast the leader changes its speed [m/s²]; 0 if it does not."""
+    leader_rate: MetrePerSecond
+    """The same, however slowly [m/s²]."""
     captured: Radian
     """The leader's heading when capture began [rad]."""
     changed: Second
@@ -129,6 +132,10 @@ class Advice:
     slot_open: bool
     to_slot: Metre
     """Distance still to close along the route [m]."""
+    wind: Wind
+    """As it is believed."""
+    margin: Metre
+    """What is kept beside d_min for what is not certain [m]."""
     along: Metre
     """How far it is behind D along the route, in capture and follow; negative if too near [m]."""
     across: Metre
@@ -156,6 +163,7 @@ def begin(belief: Belief, engagement: Engagement = "engaged") -> Memory:
         expected=known,
         leader=known,
         leader_trend=0.0,
+        leader_rate=0.0,
         captured=belief.leader.heading,
         changed=LONG_AGO,
         announced=None,

@@ -6,7 +6,7 @@ speed, with a leader that goes on doing so. An alert begins when separation woul
 `caution` seconds, is a warning when it is lost, and ends some seconds after its cause has.
 """
 
-from math import inf
+from math import hypot, inf
 from typing import NamedTuple
 
 from relguide.flying.belief import Belief
@@ -36,7 +36,11 @@ class Outlook(NamedTuple):
 def is_as_forecast(ahead: Forecast, belief: Belief, assignment: Assignment) -> bool:
     """Whether both aircraft are where a forecast has them."""
     settings, t = assignment.settings, belief.t
-    if ahead.own_off(t, belief.own) > settings.own_off or t + settings.caution > ahead.until:
+    slack = 2.0 * belief.spread.wind * min(t - ahead.t, settings.caution)
+    if (
+        ahead.own_off(t, belief.own) > settings.own_off + slack
+        or t + settings.caution > ahead.until
+    ):
         return False
     return leader_is_as_forecast(ahead, belief, assignment)
 
@@ -45,10 +49,11 @@ def leader_is_as_forecast(ahead: Forecast, belief: Belief, assignment: Assignmen
     """Whether the leader is where a forecast has it, on its heading and at its speed."""
     settings = assignment.settings
     off, turned, faster = ahead.leader_off(belief.t, belief.leader)
+    since = min(belief.t - ahead.t, settings.caution)
     return (
-        off <= settings.leader_off
-        and turned <= settings.leader_turned
-        and faster <= settings.leader_speed
+        off <= settings.leader_off + hypot(belief.place_slack, belief.speed_slack * since)
+        and turned <= settings.leader_turned + belief.heading_slack
+        and faster <= settings.leader_speed + belief.speed_slack
     )
 
 

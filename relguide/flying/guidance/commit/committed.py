@@ -48,7 +48,7 @@ class Committed(NamedTuple):
         x, y, heading = on.pose_on(path, self.s)
         end = float(path[-1, on.S])
         pieces = on.pieces_between(path, self.s, end) if self.s < end else np.zeros((0, 2))
-        wind = self.plan.situation.wind
+        wind = self.course.wind
         return Trajectory(
             x=x + wind.east * since,
             y=y + wind.north * since,
@@ -69,9 +69,10 @@ def place_on(committed: Committed, belief: Belief, before: Metre) -> tuple[Commi
     Returns:
         the same with its `s` of now, and how far to the right of it the aircraft is [m].
     """
-    own, wind, since = belief.own, belief.wind, belief.t - committed.course.begun
+    own, course = belief.own, committed.course
+    wind, since = course.wind, belief.t - course.begun
     x, y = own.x - wind.east * since, own.y - wind.north * since
-    s, right = on.project(committed.course.path, x, y, before + own.tas)
+    s, right = on.project(course.path, x, y, before + own.tas)
     return committed._replace(s=s), right
 
 
@@ -81,7 +82,11 @@ def slot_mismatch(belief: Belief, committed: Committed) -> Metre:
     By what the leader does otherwise than was expected: its place, its heading and its speed.
     """
     expected, now = committed.plan.situation.leader, belief.leader_after(0.0)
-    end = now.trajectory.pose_at(max(committed.due - belief.t, 0.0))
-    was = expected.trajectory.pose_at(committed.plan.time_to_converge)
-    elapsed, wind = belief.t - committed.begins, belief.wind
-    return hypot(end.x - was.x - wind.east * elapsed, end.y - was.y - wind.north * elapsed)
+    left = max(committed.due - belief.t, 0.0)
+    end, wind = now.trajectory.pose_at(left), belief.wind
+    was, then = expected.trajectory.pose_at(committed.plan.time_to_converge), committed.course.wind
+    elapsed = belief.t + left - committed.begins
+    return hypot(
+        end.x - was.x + wind.east * left - then.east * elapsed,
+        end.y - was.y + wind.north * left - then.north * elapsed,
+    )

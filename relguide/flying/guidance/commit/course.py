@@ -41,10 +41,26 @@ def _course_of(
         path = on.lay_path(own.x, own.y, own.heading, pieces, tas, own.bank, roll_rate)
         begun, s = belief.t, 0.0
     else:
-        old, s = lead.committed.course, lead.committed.s
+        old, s = in_the_air_of_now(lead.committed.course, belief), lead.committed.s
         path = on.splice(old.path, s, s + tas * lead.seconds, bends, tas, roll_rate)
         begun = old.begun
     slot_tas = plan.situation.leader.tas
     arrives = belief.t + lead.seconds + plan.time_to_converge
     slot = float(path[-1, on.S]) - slot_tas * (arrives - begun)
-    return Course(path, begun, slot, slot_tas), s
+    return Course(path, begun, slot, slot_tas, belief.drift), s
+
+
+def in_the_air_of_now(course: Course, belief: Belief) -> Course:
+    """A course where it lies over the ground now, in the air mass that moves as is now believed."""
+    if course.wind == belief.drift:
+        return course
+    since = belief.t - course.begun
+    path = course.path.copy()
+    path[:, on.X] += course.wind.east * since
+    path[:, on.Y] += course.wind.north * since
+    return course._replace(
+        path=path,
+        begun=belief.t,
+        slot=course.slot + course.slot_tas * since,
+        wind=belief.drift,
+    )

@@ -79,8 +79,8 @@ def lead_in(belief: Belief, assignment: Assignment, committed: Committed | None)
             pieces = pieces[:kept]
             length = float(pieces[:, 0].sum())
             seconds = length / assignment.tas
-        drifted = belief.t - committed.course.begun
-        east, north = wind.east * drifted, wind.north * drifted
+        drifted, air = belief.t - committed.course.begun, committed.course.wind
+        east, north = air.east * drifted, air.north * drifted
         x, y, heading = on.pose_on(path, s)
         start = x + east, y + north, heading
         x, y, heading = on.pose_on(path, s + length)

@@ -71,11 +71,11 @@ def propose(
             plan = kept
         found = commit(plan, lead, belief, assignment)
         least, _ = found.forecast.least(belief.t)
-        if least >= assignment.min_separation:
+        if least >= assignment.kept_separation:
             shown = shown_plan(plan, lead, belief, assignment)
             return Proposal(committed=found, shown=shown, fell_back=fell_back, refusal=refusal)
         closest = max(closest, least)
-        limits.append(min(wanted + assignment.min_separation - least + WIDER, assignment.aim))
+        limits.append(min(wanted + assignment.kept_separation - least + WIDER, assignment.aim))
         if apart < limits[-1] or wanted >= assignment.aim:
             break
     return NoProposal(answer=_too_close(closest, assignment), fell_back=fell_back, refusal=refusal)

@@ -1,5 +1,4 @@
-"""The tracker is an extended Kalman filter to the last digit, sure of what it may be sure of, and
-quick to see a turn without trembling on straights."""
+"""The tracker is a Kalman filter to the last digit, as sure as it may be, and soon sees a turn."""
 
 from datetime import datetime, timedelta
 from math import cos, sin, tan
@@ -203,6 +202,20 @@ def test_a_turn_is_seen_within_four_seconds_and_the_end_of_it_too() -> None:
     assert nees[:, 60:70].mean() < 20.0
 
 
+def test_braking_is_followed() -> None:
+    """At 0.7 m/s² for a minute: speed brakes."""
+    t = np.arange(150.0)
+    braked = np.clip(t - 60.0, 0.0, 60.0)
+    v = V - 0.7 * braked
+    y = V * t - 0.35 * braked**2 - 42.0 * np.clip(t - 120.0, 0.0, None)
+    truth = np.column_stack([np.zeros(150), y, v, np.zeros(150), np.zeros(150)])
+    rng = np.random.default_rng(13)
+    off = np.mean([tracked(reports(truth, rng))[0] - truth for _ in range(100)], axis=0)
+    assert 1.0 < off[80:120, SPEED].mean() < 2.0  # a filter without acceleration lags
+    assert np.abs(off[130:, SPEED]).max() < 0.3
+    assert np.abs(off[80:120, 1]).max() < 15.0
+
+
 def test_who_flies_as_it_assumes_has_the_error_it_states() -> None:
     """A truth that wanders by the filter's own noise: mean of 200 · 60 squares of 5 degrees."""
     rng, nees = np.random.default_rng(12), []
@@ -217,7 +230,7 @@ def test_who_flies_as_it_assumes_has_the_error_it_states() -> None:
         found, covariance, _ = tracked(reports(truth, rng))
         off = (found - truth)[20:]
         nees.append([e @ np.linalg.solve(p, e) for e, p in zip(off, covariance[20:], strict=True)])
-    # 95 % of means of 200 independent flights lie within 5 ± 0.44; manoeuvres assumed make it less
+    # 95 % of means of 200 squares lie within 5 ± 0.44
     assert np.mean(nees) == pytest.approx(5.0, abs=0.44)
 
 
@@ -268,8 +281,8 @@ def stone_soup(seen: Array) -> tuple[Array, Array]:
 def test_stone_soup_sees_the_same() -> None:
     """The same motion in other coordinates, at the same noise, in a straight and a steady turn.
 
-    Its turn noise acts a second late and its speed noise on all sides, and it assumes no
-    manoeuvres: so the two differ, by less than a third of either's error.
+    Its turn noise acts a second late and its speed noise on all sides: so the two differ, by less
+    than their errors.
     """
     for rate in (0.0, 1.1 * DEG):
         track = 0.3 + rate * np.arange(100.0)
