@@ -102,17 +102,22 @@ class TurnPiece(Strict):
     """Bank of the turn."""
 
 
+_TURN_FIELDS = frozenset(TurnPiece.model_fields)
+
+
 def _which_piece(value: Any) -> str:
-    turns = isinstance(value, TurnPiece) or (
-        isinstance(value, Mapping) and not value.keys().isdisjoint(TurnPiece.model_fields)
-    )
+    if isinstance(value, Mapping):
+        turns = not value.keys().isdisjoint(_TURN_FIELDS)
+    else:
+        turns = isinstance(value, TurnPiece)
     return "#turn" if turns else "#straight"
 
 
 def _which_position(value: Any) -> str:
-    geodetic = isinstance(value, GeodeticPursuer | GeodeticLeader) or (
-        isinstance(value, Mapping) and not value.keys().isdisjoint(("lat_deg", "lon_deg"))
-    )
+    if isinstance(value, Mapping):
+        geodetic = "lat_deg" in value or "lon_deg" in value
+    else:
+        geodetic = isinstance(value, GeodeticPursuer | GeodeticLeader)
     return "#geodetic" if geodetic else "#local"
 
 

@@ -25,6 +25,9 @@ from relguide.kernels.flight.wind_estimate import (
 )
 from relguide.units import DEG, G0, Metre, MetrePerSecond, RadianPerSecond, Second
 
+LISTENED = 30
+"""For so many seconds before a flight begins the leader was seen and the wind was measured: no crew
+joins at first sight."""
 AIR_DATA: MetrePerSecond = 1.0
 """σ of the wind that is measured in a second [m/s]: 0.7 m/s of airspeed, ¼° of heading."""
 FLIES_STRAIGHT: RadianPerSecond = 0.2 * DEG
@@ -80,10 +83,24 @@ class Perception:
         """
         own, air = world.aircraft[pursuer], world.believed_air or world.air
         wind = air.wind_at(own.x, own.y, own.altitude, 0.0)
-        self._rng = rng
+        self._rng, self._gusts = rng, world.air.gusts
         self._receiver = Receiver(world.surveillance, rng)
         self._wind, self._variance = Drift(wind.east, wind.north), UNKNOWN_VARIANCE
         self._track: LeaderTrack | None = None
+
+    def listen(self, leader: Body, moves: Drift, own_wind: Drift) -> None:
+        """See and measure until the flight begins: both have come straight.
+
+        Args:
+            leader: where it begins.
+            moves: the wind that moves it.
+            own_wind: the wind that moves the pursuer.
+        """
+        east = leader.tas * sin(leader.heading) + moves.east
+        north = leader.tas * cos(leader.heading) + moves.north
+        for second in range(-LISTENED, 0):
+            before = leader._replace(x=leader.x + east * second, y=leader.y + north * second)
+            self.see(float(second), before, moves, own_wind)
 
     def see(self, t: Second, leader: Body, moves: Drift, measured: Drift | None) -> Perceived:
         """What is perceived now.
@@ -104,7 +121,7 @@ class Perception:
         north = leader.tas * cos(leader.heading) + moves.north
         report = self._receiver.hear(t, leader.x, leader.y, east, north)
         wind_sigma = float(np.sqrt(self._variance))
-        if self._receiver.surveillance.kind == "exact":
+        if self._receiver.surveillance.kind == "exact" and self._gusts == 0.0:
             body = self._in_air(leader, leader.x, leader.y, east, north, None)
             return Perceived(body, self._wind, Spread(wind=wind_sigma), 0.0)
         track = self._follow(t, report)
@@ -114,7 +131,15 @@ class Perception:
         return Perceived(body, self._wind, Spread(place, velocity, wind_sigma), track.age)
 
     def _follow(self, t: Second, report: Report | None) -> LeaderTrack:
-        """The track with what has been reported; the first report always arrives."""
+        """The track with what has been reported; the first report always arrives.
+
+        A gust that moves the leader now is gone in seconds: so what is reported of its velocity is
+        as uncertain as gusts are strong, of which the pursuer has its share.
+        """
+        if report is not None and self._gusts > 0.0:
+            gusty = hypot(report.velocity_sigma, self._gusts)
+            place = max(report.position_sigma, self._gusts)
+            report = report._replace(position_sigma=place, velocity_sigma=gusty)
         if self._track is None:
             assert report is not None
             self._track = LeaderTrack(self._receiver.surveillance, report)

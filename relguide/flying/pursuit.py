@@ -1,6 +1,6 @@
 """One pursuer and its leader in flight: what a closed loop keeps of them from second to second."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +16,9 @@ from relguide.flying.logbook import PairNames
 from relguide.flying.perception import Perceived, Perception
 from relguide.flying.world import Link, World
 from relguide.units import Metre, MetrePerSecond, Radian, Second
+
+MARGIN_STEP: Metre = 25.0
+"""A margin that changes by less stays [m]."""
 
 
 class LeaderView(NamedTuple):
@@ -119,6 +122,13 @@ class Pursuit:
         )
 
 
+def keep_margin(one: Pursuit, belief: Belief) -> None:
+    """Keep as much beside d_min as what is believed now is uncertain."""
+    margin = belief.spread.margin
+    if abs(margin - one.assignment.margin) > MARGIN_STEP:
+        one.assignment = replace(one.assignment, margin=margin)
+
+
 def begin_pursuit(
     world: World, fleet: Fleet, link: Link, engagement: Engagement = "engaged", seed: int = 0
 ) -> Pursuit:
@@ -136,6 +146,7 @@ def begin_pursuit(
     leader, drift = fleet.body(j), fleet.drift(j)
     if world.perceives:
         perception = Perception(world, i, np.random.default_rng([seed, i, j]))
+        perception.listen(leader, drift, fleet.drift(i))
         seen = fleet.see(perception, i, j, 0.0)
         leader, drift = seen.leader, seen.wind
     track = FlownTrack(leader, drift, 0.0, link.slot_distance + SPARE)

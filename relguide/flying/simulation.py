@@ -40,7 +40,7 @@ from relguide.flying.orders import (
     no_commands,
     obey,
 )
-from relguide.flying.pursuit import Pursuit, begin_pursuit
+from relguide.flying.pursuit import Pursuit, begin_pursuit, keep_margin
 from relguide.flying.world import World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
 from relguide.planning.plan import Planner, plan
@@ -216,6 +216,7 @@ def _guide(one: Pursuit, fleet: Fleet, planner: Planner, t: Second) -> Iterator[
     belief = one.belief(fleet, t)
     one.track.add(belief.leader, belief.drift, t)
     yield from watch_leader(one, belief)
+    keep_margin(one, belief)
     one.memory, advice = advise(one.memory, belief, one.assignment, planner)
     for event in advice.events:
         document = event_document(t, one.names, event)

@@ -10,7 +10,7 @@ axis.
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import exp, log, sqrt
+from math import exp, inf, log, sqrt
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -153,8 +153,8 @@ class Receiver:
         self._truth: list[tuple[float, ...]] = []
         self._due: Second | None = None
         self._to_lose, self._has_lost = 0, False
-        self._drift = rng.standard_normal(2)
-        self._drawn: Second = 0.0
+        self._drift = np.zeros(2)
+        self._drawn: Second = -inf
         self._longest = max(round(surveillance.burst / surveillance.interval) - 1, 1)
         mean = 1.0 + LONG_LOSS * 0.5 * self._longest if self._longest > 1 else 1.0
         share = surveillance.loss_share

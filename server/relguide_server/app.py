@@ -31,7 +31,6 @@ from relguide_server.http.openapi import describe, name_of, response, schema_of
 from relguide_server.http.pages import Page
 from relguide_server.http.proxy import ProxyPath
 from relguide_server.http.request_log import RequestLog
-from relguide_server.http.security_headers import SecurityHeaders
 from relguide_server.jobs.admission import Admission
 from relguide_server.jobs.worker_pool import WorkerPool
 from relguide_server.planning import areas, plans, simulations
@@ -140,7 +139,7 @@ def create_app(
     app.state.settings, app.state.catalogue = settings, catalogue
     app.state.records = records
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
-    app.router.routes.extend(plans.router.routes)  # most requests are for these
+    app.router.routes[:0] = plans.router.routes  # most requests are for these
     for part in (
         router,
         areas.router,
@@ -160,7 +159,6 @@ def create_app(
     app.add_middleware(BodyLimit, max_body=settings.max_body)
     hosts = [name.strip() for name in settings.hosts.split(",") if name.strip()]
     app.add_middleware(Access, hosts=hosts, tokens=read_tokens(settings.tokens))
-    app.add_middleware(SecurityHeaders)
     app.add_middleware(RequestLog, metrics=metrics)
     app.add_middleware(HeadAsGet)
     app.add_middleware(Admission)

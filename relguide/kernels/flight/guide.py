@@ -1,13 +1,13 @@
 """One act of guidance, once a second, without planning: what is flown now, and what is asked next.
 
 converge tracks the committed path over the ground: a path in an air mass that moves with the wind
-that was believed when it was laid. What the wind is otherwise is made good by the heading. Where nothing of it turns any more, capture
-closes onto the leader's flown path over the ground, and so does follow once joined: both track the
-marks, so an aircraft turns where its leader turned. Speed closes the spacing in all three. In the
-other modes a heading is held.
+that was believed when it was laid. What the wind is otherwise is made good by the heading. Where
+nothing of it turns any more, capture closes onto the leader's flown path over the ground, and so
+does follow once joined: both track the marks, so an aircraft turns where its leader turned. Speed
+closes the spacing in all three. In the other modes a heading is held.
 """
 
-from math import hypot, sqrt, tan
+from math import cos, hypot, sin, sqrt, tan
 from typing import NamedTuple
 
 from numba import njit
@@ -151,8 +151,10 @@ def act(
             marks, body, task, gate, to_slot
         ):
             tas = task.tas
-            if task.tas > course.slot_tas:
-                tas = closing_tas(to_slot, course.slot_tas, tas, regained(limits, body), gains)
+            keeping = course.slot_tas - rest.east * sin(body.heading)
+            keeping -= rest.north * cos(body.heading)
+            if task.tas > keeping:
+                tas = closing_tas(to_slot, keeping, tas, regained(limits, body), gains)
             aloft = move_to(body, x, y)
             control = _along_path(course.path, s, right, aloft, limits, gains, tas, rest)
             return Act(control, Progress(CONVERGE, s, 0.0, 0.0), right, to_slot, False)

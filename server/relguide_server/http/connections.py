@@ -4,11 +4,11 @@ import asyncio
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
 from relguide_server.http.errors import problem
-from relguide_server.http.security_headers import SECURITY_HEADERS, SecurityHeaders
+from relguide_server.http.security_headers import SECURITY_HEADERS, add_security_headers
 
 HEAD_PATIENCE = 15.0
 """How long the head of a request may take to come [s]."""
@@ -153,7 +153,12 @@ def refuse(status: int, detail: str, headers: Mapping[str, str] = NOTHING) -> AS
     sent = {"Connection": "close", **headers}
 
     async def answer(scope: Scope, receive: Receive, send: Send) -> None:
-        refused = problem(scope["path"], status, detail, kind=kind, headers=sent)
-        await refused(scope, receive, send)
+        async def send_strict(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                add_security_headers(message)
+            await send(message)
 
-    return SecurityHeaders(answer)
+        refused = problem(scope["path"], status, detail, kind=kind, headers=sent)
+        await refused(scope, receive, send_strict)
+
+    return answer

@@ -1,6 +1,5 @@
 """The query of an address: parameters that a route has, each of them once."""
 
-from collections.abc import Callable, Coroutine
 from typing import Any, get_origin
 
 from fastapi import Depends, Request
@@ -24,29 +23,20 @@ class QueryRoute(APIRoute):
 
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
-        handle = self.get_route_handler()
-
-        async def answer(scope: Scope, receive: Receive, send: Send) -> None:
-            found = await handle(Request(scope, receive, send))
-            await found(scope, receive, send)
-
-        self.app = answer
-
-    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
-        """What answers a request."""
         (field,) = self.dependant.query_params
         model: type[BaseModel] = field.field_info.annotation  # type: ignore[assignment]
         checks: list[Any] = [part.call for part in self.dependant.dependencies]
         usual = model()
 
-        async def handle(request: Request) -> Response:
+        async def answer(scope: Scope, receive: Receive, send: Send) -> None:
+            request = Request(scope, receive, send)
             for check in checks:
                 await check(request)
-            query = _read(model, request) if request.scope["query_string"] else usual
-            answer: Response = await self.endpoint(request, query)
-            return answer
+            query = _read(model, request) if scope["query_string"] else usual
+            found: Response = await self.endpoint(request, query)
+            await found(scope, receive, send)
 
-        return handle
+        self.app = answer
 
 
 async def refuse_unknown_parameters(connection: HTTPConnection) -> None:
@@ -55,13 +45,13 @@ async def refuse_unknown_parameters(connection: HTTPConnection) -> None:
     Raises:
         Refusal: 422, for the first of them.
     """
+    if not connection.scope["query_string"]:
+        return
     match connection.scope["route"]:
         case (
             APIRoute(path=path, dependant=dependant)
             | APIWebSocketRoute(path=path, dependant=dependant)
         ):
-            if not connection.scope["query_string"]:
-                return
             known = _parameters(dependant)
             given = [name for name, _ in connection.query_params.multi_items()]
             for name in given:

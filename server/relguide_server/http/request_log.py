@@ -1,4 +1,7 @@
-"""What every request leaves behind: its id in the answer, its time in the metrics, its log line."""
+"""What every request leaves behind: its id in the answer, its time in the metrics, its log line.
+
+The answer gets the headers that make a browser strict in the same go.
+"""
 
 import re
 from logging import DEBUG
@@ -10,6 +13,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from relguide_server.http.errors import log
 from relguide_server.http.logs import request_id
 from relguide_server.http.metrics import Metrics
+from relguide_server.http.security_headers import add_security_headers
 
 HEADER = b"x-request-id"
 SOUND = re.compile(r"[\w.:/+=@-]{1,128}", re.ASCII)
@@ -21,7 +25,7 @@ NO_ROUTE = "none"
 
 
 class RequestLog:
-    """ASGI middleware: gives each request an id, measures it and notes it.
+    """ASGI middleware: gives each request an id and strict headers, measures it and notes it.
 
     `X-Request-ID` is taken from the request or made, stands in each line of the log that is written
     while it is answered, and is returned. A log of level `debug` has a line for every request.
@@ -51,7 +55,8 @@ class RequestLog:
             nonlocal status
             if message["type"] == "http.response.start":
                 status = message["status"]
-                message["headers"] = [*message.get("headers", ()), (HEADER, name)]
+                add_security_headers(message)
+                message["headers"].append((HEADER, name))
             await send(message)
 
         try:

@@ -2,7 +2,7 @@
 
 from importlib.metadata import version
 
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.types import Message
 
 VERSION = version("relguide")
 """Of the software; each answer says it."""
@@ -16,26 +16,12 @@ SECURITY_HEADERS = {
     b"frame-ancestors 'self'; base-uri 'self'; object-src 'none'; form-action 'self'",
     b"relguide-version": VERSION.encode(),
 }
+_ALL = tuple(SECURITY_HEADERS.items())
 
 
-class SecurityHeaders:
-    """ASGI middleware: adds `SECURITY_HEADERS` to every answer that does not set its own."""
-
-    def __init__(self, app: ASGIApp) -> None:
-        self.app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve one connection."""
-        if scope["type"] != "http":
-            await self.app(scope, receive, send)
-            return
-
-        async def send_strict(message: Message) -> None:
-            if message["type"] == "http.response.start":
-                headers = message.get("headers", [])
-                own = {name for name, _ in headers}
-                missing = [(k, v) for k, v in SECURITY_HEADERS.items() if k not in own]
-                message["headers"] = [*headers, *missing]
-            await send(message)
-
-        await self.app(scope, receive, send_strict)
+def add_security_headers(message: Message) -> None:
+    """Add to the start of an answer those of `SECURITY_HEADERS` that it does not set itself."""
+    headers = message.get("headers", ())
+    own = {name for name, _ in headers}
+    missing = _ALL if own.isdisjoint(SECURITY_HEADERS) else [h for h in _ALL if h[0] not in own]
+    message["headers"] = [*headers, *missing]

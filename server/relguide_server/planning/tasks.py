@@ -248,13 +248,12 @@ def _answered(given: dict[str, Any], started: float) -> PlanReply:
 
 
 def _is_final(given: dict[str, Any]) -> bool:
-    match given:
-        case {"status": "planned", "optimality": {"proof": "relaxation"}}:
-            return True
-        case {"status": "planned", "planner": "network"}:
-            return True
-        case {"status": "no_plan", "reason": reason}:
-            return bool(reason != "deadline")
+    match given["status"]:
+        case "planned":
+            proof: str = given["optimality"]["proof"]
+            return proof == "relaxation" or bool(given["planner"] == "network")
+        case "no_plan":
+            return bool(given["reason"] != "deadline")
         case _:
             return False
 
