@@ -69,7 +69,7 @@ def _limits(max_bank: Radian) -> Limits:
     kind = airframe("A306")
     return Limits(
         max_bank, kind.max_roll_rate, kind.roll_time_constant, kind.speed_time_constant,
-        kind.max_acceleration, kind.max_deceleration, 0.0, inf,
+        1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, inf,
     )  # fmt: skip
 
 
