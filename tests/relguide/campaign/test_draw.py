@@ -58,7 +58,7 @@ VALUES = {
     "slot_beyond_m": 500.0, "spacing_s": 60.0, "start_distance_m": 30_000.0,
     "start_bearing_deg": 90.0, "wind_mps": 12.0, "wind_from_deg": 45.0, "wind_error_mps": 4.0,
     "isa_error_k": -3.0, "roll_rate_factor": 0.8, "roll_lag_factor": 1.2, "speed_lag_factor": 1.1,
-    "thrust_factor": 0.5, "drag_factor": 0.5, "speed_brake_factor": 0.5,
+    "thrust_factor": 0.9, "drag_factor": 0.5, "speed_brake_factor": 0.5,
 }  # fmt: skip
 
 
