@@ -147,15 +147,16 @@ bench: .make/dev .make/kernels .make/bench/ready
 planner-figures: .make/dev .make/kernels .make/bench/ready
 	@$(BIN)/python -m benchmarks.figures
 
-# More flights, or some families only: .venv/bin/python -m tools.campaign fly --help
+# More flights, or other families: .venv/bin/relguide campaign --help, with a file as examples/campaign.toml
 .PHONY: campaign
 campaign: .make/dev .make/kernels .make/traffic
-	@$(BIN)/python -m tools.campaign fly
+	@$(BIN)/relguide campaign examples/campaign.toml --out build/campaign
+	@$(BIN)/relguide campaign report build/campaign --table
 
-# The figures of docs/flight.md, kept in benchmarks/results; those of the campaign, of build/campaign.jsonl if that is there.
+# The figures of docs/flight.md, kept in benchmarks/results; those of the campaign, of build/campaign if that is there.
 .PHONY: flight-figures
 flight-figures: .make/dev .make/kernels
-	@$(BIN)/python -m tools.campaign report $(wildcard build/campaign.jsonl)
+	@$(BIN)/python -m tools.campaign $(wildcard build/campaign)
 
 .make/bench/ready: .make/dev pyproject.toml
 	@mkdir -p .make/bench

@@ -18,6 +18,7 @@ from relguide import __version__
 from relguide.cli import (
     area_command,
     audit_command,
+    campaign_command,
     check_command,
     dataset_command,
     fly_command,
@@ -48,6 +49,7 @@ COMMANDS: dict[str, CommandFile] = {
     "check": check_command,
     "fly": fly_command,
     "replay": replay_command,
+    "campaign": campaign_command,
     "serve": serve_command,
     "dataset": dataset_command,
     "train": train_command,

@@ -6,7 +6,9 @@ from math import hypot, pi
 from random import Random
 from typing import TypeVar
 
-from relguide.flying.aircraft_documents import AircraftSample, GuidanceSample, LinkResult
+from relguide.campaign.instant import Instant as Instant
+from relguide.campaign.instant import instant as instant
+from relguide.flying.aircraft_documents import LinkResult
 from relguide.flying.documents import Document, FlightEnded, Sample
 from relguide.flying.flight import Command, Scenario, fly
 from relguide.planning.plan import Planner, plan
@@ -15,22 +17,6 @@ from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, NM
 
 T = TypeVar("T")
-
-
-@dataclass(frozen=True)
-class Instant:
-    """A sample of a flight of two."""
-
-    t: float
-    pursuer: AircraftSample
-    leader: AircraftSample
-    guidance: GuidanceSample
-
-
-def instant(sample: Sample) -> Instant:
-    (pursuer, leader), (guidance,) = sample.aircraft, sample.guidance
-    assert (guidance.ident, guidance.leader) == (pursuer.ident, leader.ident)
-    return Instant(sample.t, pursuer, leader, guidance)
 
 
 @dataclass(frozen=True)

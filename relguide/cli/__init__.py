@@ -7,5 +7,5 @@ and works whatever is installed.
 Shared: `shared_options` are options of more than one command, `situation_file` reads what is to be
 planned, `output` writes; `plan_tables`, `flight_tables`, `branch_tables` and `template_tables` are
 tables for people, made by `shared_tables`; `tree_growth` grows the paper's tree under a bar;
-`workers` are the threads, or the `cluster`, that make parts.
+`workers` are the threads, or the Dask cluster, that make parts.
 """

@@ -2,11 +2,12 @@
 
 import os
 from collections.abc import Iterator
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TypeVar
 
 from relguide.cli.output import say
+from relguide.parallel.pool import start_threads
 from relguide.planning.progress import progress_bar
 
 T = TypeVar("T")
@@ -21,10 +22,10 @@ def start_workers(threads: int | None, scheduler: str | None) -> Iterator[Execut
         scheduler: of the cluster, as an address; `None` for this machine.
     """
     if scheduler is None:
-        with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+        with start_threads(threads or os.cpu_count() or 1) as pool:
             yield pool
         return
-    from relguide.cli.cluster import cluster
+    from relguide.parallel.cluster import cluster
 
     with cluster(scheduler, say) as machines:
         yield machines

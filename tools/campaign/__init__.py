@@ -1,1 +1,1 @@
-"""Thousands of flights drawn at random, and what became of them: `python -m tools.campaign`."""
+"""The figures of docs/flight.md: loops, responses, the campaign: `python -m tools.campaign`."""

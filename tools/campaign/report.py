@@ -13,6 +13,7 @@ from control import StateSpace
 
 from benchmarks.page import DOCS, FOLDER, RESULTS, with_block
 from benchmarks.tables import Cells, markdown, read_table, write_table
+from relguide.campaign.row import Row
 from relguide.flying.airframe import Airframe
 from relguide.units import DEG
 from tests.aloft import A306
@@ -27,7 +28,6 @@ from tools.campaign.loops import (
     roll_loop,
     straight_loop,
 )
-from tools.campaign.row import Row
 
 PAGE = DOCS / "flight.md"
 AUTOPILOT, PATH, CAMPAIGN = "flight-autopilot.svg", "flight-path.svg", "flight-campaign.svg"

@@ -1,13 +1,12 @@
-"""Rows as tables: distributions by family, and the worst of each figure."""
+"""Rows of a campaign as the tables of docs/flight.md: an overview, distributions, losses."""
 
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from benchmarks.tables import Cells
-from tools.campaign.row import FIGURES, Figure, Row
+from relguide.campaign.row import FIGURES, Figure, Row
 
-WORST = 10
 OVERVIEW = (
     "family", "flights", "planned", "joined", "losses, planned", "losses, not planned",
     "of these avoidable", "losses without a word", "circles", "errors", "simulated s per CPU s",
@@ -63,21 +62,6 @@ def ranking(figure: Figure, rows: Sequence[Row]) -> list[tuple[float, Row]]:
     return sorted(figure.values(rows), key=lambda pair: (sign * pair[0], pair[1].number))
 
 
-def worst(rows: Sequence[Row]) -> Cells:
-    """A line for each figure: the flights that are worst in it, with what they have."""
-    cells = []
-    for figure in FIGURES:
-        bad = ranking(figure, rows)[:WORST]
-        named = [
-            f"{row.number} ({value:,.{figure.decimals}f})"
-            for value, row in bad
-            if figure.low_is_worse or value > 0.0
-        ]
-        if named:
-            cells.append([figure.heading, ", ".join(named)])
-    return cells
-
-
 def losses(rows: Sequence[Row]) -> Cells:
     """Each loss, the worst first."""
     found = [(loss.separation_m, loss, row) for row in rows for loss in row.losses]
@@ -103,27 +87,3 @@ def by_family(rows: Sequence[Row]) -> Iterator[tuple[str, list[Row]]]:
     """Families in the order in which they were flown, with their rows."""
     for family in dict.fromkeys(row.family for row in rows):
         yield family, [row for row in rows if row.family == family]
-
-
-def text(headings: Sequence[str], cells: Cells) -> str:
-    """A table for a terminal."""
-    widths = [max(map(len, column)) for column in zip(headings, *cells, strict=True)]
-    lines = [list(headings), ["─" * width for width in widths], *cells]
-    return "\n".join(
-        "  ".join(
-            cell.ljust(width) if i == 0 else cell.rjust(width)
-            for i, (cell, width) in enumerate(zip(line, widths, strict=True))
-        ).rstrip()
-        for line in lines
-    )
-
-
-def page(rows: Sequence[Row]) -> str:
-    """Everything there is to say of rows, for a terminal."""
-    parts = [text(OVERVIEW, overview(rows))]
-    for family, own in by_family(rows):
-        parts += [family.upper(), text(DISTRIBUTION, distributions(own))]
-        parts.append(text(("figure", f"the {WORST} worst flights"), worst(own)))
-        if any(row.losses for row in own):
-            parts.append(text(LOSSES, losses(own)[: 2 * WORST]))
-    return "\n\n".join(parts)

@@ -1,12 +1,12 @@
 """The options of `relguide plan --batch`, and the order that they make."""
 
 import argparse
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from relguide.cli.batch.order import FORMS, BatchOrder, form_of
 from relguide.cli.shared_options import add_workers
+from relguide.parallel.pool import count_cores
 from relguide.planning.extras import need
 
 if TYPE_CHECKING:
@@ -106,8 +106,4 @@ def order_of(chosen: argparse.Namespace) -> BatchOrder:
 
 def cores_of(chosen: argparse.Namespace) -> int:
     """How many processes are to answer."""
-    if chosen.processes:
-        return int(chosen.processes)
-    if hasattr(os, "sched_getaffinity"):  # in a container it knows better
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    return int(chosen.processes or count_cores())

@@ -19,12 +19,8 @@ from relguide.cli.batch.order import BatchOrder
 from relguide.cli.batch.source import LineChunk
 from relguide.cli.batch.work import AnsweredChunk, beginning
 from relguide.learn.training.files import expect_part, write_whole
+from relguide.parallel.lock import lock
 from relguide.units import Second
-
-try:
-    import fcntl
-except ImportError:  # Windows: there nobody else should write the same file
-    fcntl = None  # type: ignore[assignment]
 
 KEPT_EVERY: Second = 2.0
 """Between two records of how far it has come."""
@@ -134,7 +130,7 @@ def open_part(file: Path, order: BatchOrder, *, resume: bool) -> Iterator[Part]:
     expect_part(part, resume=resume)
     reached = _load(record, order) if resume else None
     with part.open("r+b" if resume else "wb") as stream:
-        _lock(stream)
+        lock(stream, f"{part} is being written by another run.")
         if reached is None:
             head = beginning(order)
             stream.write(head)
@@ -210,17 +206,3 @@ def _load(record: Path, order: BatchOrder) -> Reached:
             "the options it was begun with."
         )
     return reached
-
-
-def _lock(stream: IO[bytes]) -> None:
-    """Keep other runs out as long as this process has the file open.
-
-    Raises:
-        ValueError: if one has it.
-    """
-    if fcntl is None:
-        return
-    try:
-        fcntl.lockf(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        raise ValueError(f"{stream.name} is being written by another run.") from None

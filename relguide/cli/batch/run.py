@@ -4,6 +4,7 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from functools import partial
 from itertools import chain
 from pathlib import Path
 from time import monotonic
@@ -11,7 +12,6 @@ from typing import IO, NamedTuple
 
 from relguide.cli.batch.order import BatchOrder
 from relguide.cli.batch.part import Part, Reached, finish_part, open_part, part_of
-from relguide.cli.batch.pool import in_order, start_processes
 from relguide.cli.batch.source import (
     BLOCK,
     LineChunk,
@@ -25,6 +25,8 @@ from relguide.cli.output import DONE, FAILED, say, write
 from relguide.cli.situation_file import open_input
 from relguide.cli.workers import start_workers
 from relguide.contract.flat import check_columns
+from relguide.parallel.in_order import in_order
+from relguide.parallel.pool import start_processes
 from relguide.planning.extras import need
 from relguide.planning.progress import progress_bar
 
@@ -106,7 +108,7 @@ def _answers(
         advance(reached.read)
         if workers.scheduler is not None:
             executor = stack.enter_context(start_workers(None, workers.scheduler))
-            found = in_order(order, chunks, executor, 1)
+            found = in_order(partial(answer_chunk, order), chunks, executor, 1)
         else:
             found = _answer_here(order, chunks, workers.processes, stack)
         for chunk, answered in found:
@@ -124,7 +126,8 @@ def _answer_here(
             continue
         if loaded and processes > 1:
             executor = stack.enter_context(start_processes(processes))
-            yield from in_order(order, chain((chunk,), chunks), executor, processes)
+            task = partial(answer_chunk, order)
+            yield from in_order(task, chain((chunk,), chunks), executor, processes)
             return
         yield chunk, answer_chunk(order, chunk)
         loaded = True

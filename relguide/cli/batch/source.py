@@ -27,6 +27,11 @@ class LineChunk(NamedTuple):
     size: int
     """How much of the file it is: bytes, or rows of Parquet."""
 
+    @property
+    def name(self) -> str:
+        """As a sentence begins that is about it."""
+        return f"The lines from {self.first} on"
+
 
 def text_chunks(stream: IO[bytes], first: int, at_once: int) -> Iterator[LineChunk | None]:
     """The lines from here on, in chunks; `None` where the next would have to be waited for.

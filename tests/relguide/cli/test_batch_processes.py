@@ -7,8 +7,6 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future
-from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic, sleep
@@ -17,11 +15,6 @@ from typing import Any
 import pyarrow.parquet as pq
 import pytest
 
-from relguide.cli.batch.order import BatchOrder
-from relguide.cli.batch.pool import in_order
-from relguide.cli.batch.source import LineChunk
-from relguide.cli.batch.work import AnsweredChunk
-from relguide.learn.training.chunks import ATTEMPTS
 from tests.bodies import BODY, change
 from tests.command_line import NEAR, UNREACHABLE, Run
 from tests.relguide.cli.test_batch import lines_of, without_time
@@ -225,55 +218,3 @@ def test_a_reader_that_has_seen_enough_ends_all(situations: str) -> None:
         assert running.stderr is not None
         assert running.stderr.read() == ""
     wait_for(lambda: is_gone(running.pid), within=10.0)
-
-
-class Losing(Executor):
-    """Loses each chunk some times before it answers."""
-
-    def __init__(self, error: Exception, times: int) -> None:
-        self.error, self.times = error, times
-        self.sent: list[int] = []
-
-    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
-        chunk: LineChunk = args[1]
-        self.sent.append(chunk.first)
-        future: Future[Any] = Future()
-        if self.sent.count(chunk.first) <= self.times:
-            future.set_exception(self.error)
-        else:
-            future.set_result(AnsweredChunk(chunk.content, 1, 0, 0))
-        return future
-
-
-CHUNKS = [LineChunk(n, 1, b"%d\n" % n, 2) for n in range(1, 5)]
-ORDER = BatchOrder(source="jsonl", to="jsonl")
-
-
-def test_what_a_lost_worker_had_is_sent_again() -> None:
-    losing = Losing(OSError("gone"), ATTEMPTS - 1)
-    found = [chunk.first for chunk, _ in in_order(ORDER, CHUNKS, losing, 1)]
-    assert found == [1, 2, 3, 4]
-    assert len(losing.sent) == 4 * ATTEMPTS
-    with pytest.raises(OSError, match="The lines from 1 on were lost 5 times, at last by: gone"):
-        list(in_order(ORDER, CHUNKS, Losing(OSError("gone"), ATTEMPTS), 1))
-
-
-def test_a_process_that_is_ended_from_outside_is_named() -> None:
-    with pytest.raises(ValueError, match="A process that plans was ended from outside"):
-        list(in_order(ORDER, CHUNKS, Losing(BrokenProcessPool("x"), 1), 2))
-
-
-def test_no_more_is_under_way_than_memory_has_room_for() -> None:
-    class Waiting(Losing):
-        most = 0
-        out = 0
-
-        def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
-            self.out += 1
-            self.most = max(self.most, self.out)
-            return super().submit(fn, *args, **kwargs)
-
-    waiting = Waiting(OSError(), 0)
-    for _ in in_order(ORDER, (CHUNKS[0]._replace(first=n) for n in range(1000)), waiting, 2):
-        waiting.out -= 1
-    assert waiting.most <= 9

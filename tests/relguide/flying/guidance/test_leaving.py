@@ -5,6 +5,8 @@ from itertools import pairwise
 
 import pytest
 
+from relguide.campaign.families import draw
+from relguide.campaign.judge import fly_case
 from relguide.flying.aircraft_documents import HeadingReference
 from relguide.flying.belief import Belief
 from relguide.flying.documents import Alert, ModeChanged, PlanUnavailable, SeparationLost, Unable
@@ -25,8 +27,6 @@ from relguide.units import DEG, KT, NM
 from tests.flights import Flown, fly_whole, random_start
 from tests.relguide.flying.guidance.beliefs import FIG_6B, behind, observe
 from tests.relguide.flying.guidance.test_forecast import make_forecast
-from tools.campaign.families import draw
-from tools.campaign.flights import fly_case
 
 FOLLOWED = replace(FIG_6B, after_joining=600.0)
 JOINED = 950.0

@@ -1,35 +1,15 @@
-"""Flying a case, and its documents as one row of figures: all that the campaign knows of flying."""
+"""Flying a case, and its documents as one row of figures: all that a campaign knows of flying."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from math import hypot, inf
 from time import thread_time
 
 import numpy as np
 
-from relguide import plan
-from relguide.flying.aircraft_documents import GuidanceSample, HeadingReference, LinkResult
-from relguide.flying.documents import (
-    Alert,
-    Document,
-    FlightEnded,
-    ForecastChanged,
-    LeaderRoute,
-    PlanChanged,
-    Sample,
-    Unable,
-)
-from relguide.flying.flight import world_of
-from relguide.flying.orders import Command
-from relguide.flying.simulation import simulate
-from relguide.flying.world import World
-from relguide.kernels.base.angles import wrap_signed
-from relguide.planning.situation import Situation, Wind
-from relguide.units import DEG, Metre, Second
-from tests.flights import Instant, instant
-from tools.campaign.case import Case
-from tools.campaign.evasion import AHEAD, best_turn
-from tools.campaign.paths import (
+from relguide.campaign.case import Case
+from relguide.campaign.evasion import AHEAD, best_turn
+from relguide.campaign.instant import Instant, instant
+from relguide.campaign.paths import (
     Floats,
     circles,
     count_circles,
@@ -41,7 +21,24 @@ from tools.campaign.paths import (
     turns_flown,
     without_corrections,
 )
-from tools.campaign.row import Loss, Row
+from relguide.campaign.row import Loss, Row
+from relguide.flying.aircraft_documents import GuidanceSample, HeadingReference, LinkResult
+from relguide.flying.documents import (
+    Alert,
+    Document,
+    FlightEnded,
+    ForecastChanged,
+    LeaderRoute,
+    PlanChanged,
+    Sample,
+    Unable,
+)
+from relguide.flying.orders import Command
+from relguide.flying.simulation import simulate
+from relguide.kernels.base.angles import wrap_signed
+from relguide.planning.plan import Plan, plan
+from relguide.planning.situation import Situation, Wind
+from relguide.units import DEG, Metre, Second
 
 EVERY: Second = 1.0
 """Between samples: guidance acts as often."""
@@ -56,44 +53,35 @@ SAME: Second = 2.0
 def fly_case(case: Case) -> Row:
     """Fly it. What guidance or the planner raises is passed on."""
     begun = thread_time()
+    documents = tuple(documents_of(case))
+    return row_of(case, documents, thread_time() - begun)
+
+
+def documents_of(case: Case, sample_period: Second = EVERY) -> Iterator[Document]:
+    """What the flight of a case says, in order of time."""
     scenario = case.scenario
-    flight = simulate(
-        _world(case),
+    return simulate(
+        case.world(),
         plan,
         scenario=scenario.name,
         title=scenario.title,
         commands=_orders(case.orders),
-        sample_period=EVERY,
+        sample_period=sample_period,
         seed=case.number,
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
     )
-    return row_of(case, tuple(flight), thread_time() - begun)
 
 
-def _world(case: Case) -> World:
-    """Two aircraft, of which the pursuer may be another than its guidance believes."""
-    world = world_of(case.scenario, seed=case.number)
-    pursuer, leader = world.aircraft
-    believed = pursuer.airframe
-    true = replace(
-        believed,
-        **{name: factor * getattr(believed, name) for name, factor in case.factors.items()},
-    )
-    return replace(world, aircraft=(replace(pursuer, airframe=true, believed=believed), leader))
-
-
-def failed_row(case: Case, error: BaseException) -> Row:
-    """The row of a flight that ended with an exception."""
+def failed_row(family: str, number: int, error: BaseException) -> Row:
+    """The row of a flight that could not be drawn, or ended with an exception."""
     return Row(
-        family=case.family, number=case.number, planned=False,
-        intent_known=case.scenario.intent_known, joined=False, flown_s=0.0, join_s=None,
-        planned_s=None, promised_s=None, join_over_plan=None, join_over_promise=None,
-        least_share=_start_share(case.scenario.situation),
-        start_share=_start_share(case.scenario.situation), below_s=0.0, losses=(),
+        family=family, number=number, planned=False, intent_known=False, joined=False, flown_s=0.0,
+        join_s=None, planned_s=None, promised_s=None, join_over_plan=None, join_over_promise=None,
+        least_share=0.0, start_share=0.0, below_s=0.0, losses=(), silent_losses=0,
         shown_replans=0, all_replans=0, reversals=0, extra_reversals=None, unplanned_reversals=None,
-        loops=0, lone_loops=0, heading_jump_deg=0.0, cross_track_m=0.0, off_forecast_m=None,
-        fastest_mps=0.0, alerts=0, cpu_s=0.0,
+        swing_deg=0.0, loops=0, lone_loops=0, heading_jump_deg=0.0, cross_track_m=0.0,
+        off_forecast_m=None, fastest_mps=0.0, alerts=0, cpu_s=0.0,
         error=f"{type(error).__name__}: {error}",
     )  # fmt: skip
 
@@ -104,6 +92,7 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     assert isinstance(last, FlightEnded)
     (end,) = last.results
     situation = case.scenario.situation
+    optimum = _optimum(case)
     samples = [instant(document) for document in documents if isinstance(document, Sample)]
     changed = [document for document in documents if isinstance(document, PlanChanged)]
     engaged = changed[0] if end.planned_time > 0.0 else None
@@ -131,11 +120,15 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         promised_s=promised,
         join_over_plan=joined / planned if joined and planned else None,
         join_over_promise=joined / promised if joined and promised else None,
+        optimum_s=optimum,
+        over_optimum_s=None if joined is None or optimum is None else joined - optimum,
+        why_not_joined="" if end.joined else _why_not(documents),
         join_over_last_promise=_join_over_last_promise(changed, joined),
         least_share=end.least_separation / situation.min_separation,
         start_share=_start_share(situation),
         below_s=sum(loss.seconds for loss in losses),
         losses=losses,
+        silent_losses=sum(loss.announced_s is None for loss in losses),
         shown_replans=end.replans_announced,
         all_replans=end.replans,
         reversals=end.bank_reversals,
@@ -143,6 +136,7 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         if engaged
         else None,
         unplanned_reversals=end.bank_reversals - reversals(turns) if engaged else None,
+        swing_deg=end.heading_swing / DEG,
         loops=max(loops, 0),
         lone_loops=lone_circles(
             [s.pursuer.turn_rate for s in samples], [s.leader.turn_rate for s in samples], EVERY
@@ -160,6 +154,28 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         if losses and engaged is None and losses[0].t_s < AHEAD
         else None,
     )
+
+
+def _optimum(case: Case) -> Second | None:
+    """What the fastest plan takes that knows all, where the leader flies what it declared."""
+    best = plan(case.scenario.situation) if case.leader_as_declared else None
+    return best.time_to_converge if isinstance(best, Plan) else None
+
+
+def _why_not(documents: Sequence[Document]) -> str:
+    """Why it has not joined: what guidance was unable to do, else how it ended and in what mode."""
+    last = documents[-1]
+    assert isinstance(last, FlightEnded)
+    for document in reversed(documents):
+        match document:
+            case Unable(reason=reason):
+                return f"unable: {reason}"
+            case PlanChanged():
+                break
+            case _:
+                pass
+    modes = [one.guidance[0].mode for one in reversed(documents) if isinstance(one, Sample)]
+    return f"{last.reason} in {modes[0]}" if modes else last.reason
 
 
 def _join_over_last_promise(changed: Sequence[PlanChanged], joined: Second | None) -> float | None:

@@ -15,8 +15,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from relguide.cli import cluster as clusters
-from relguide.cli.cluster import cluster, make_alike, program
 from relguide.learn.training import chunks
 from relguide.learn.training.chunks import Cluster, gather
 from relguide.learn.words.branch_labels import (
@@ -26,9 +24,12 @@ from relguide.learn.words.branch_labels import (
     label_chunk,
     load_labels,
 )
+from relguide.parallel import cluster as clusters
+from relguide.parallel.cluster import cluster, make_alike
+from relguide.parallel.program import program
 from tests.bodies import BODY
 from tests.command_line import NEAR, Run, write
-from tests.relguide.cli.dask_cluster import LocalCluster, local_cluster
+from tests.relguide.parallel.dask_cluster import LocalCluster, local_cluster
 
 REQUEST = LabelRequest(count=2000, seed=11, chunk=50)
 pytestmark = pytest.mark.slow
@@ -222,7 +223,7 @@ def test_misuse_is_said_in_a_sentence(run: Run) -> None:
 
 
 def test_the_library_does_not_load_dask() -> None:
-    modules = "relguide, relguide.__main__, relguide.cli.workers, relguide.cli.cluster"
+    modules = "relguide, relguide.__main__, relguide.cli.workers, relguide.parallel.cluster"
     loaded = f"import sys, {modules}; print('dask' in sys.modules)"
     said = subprocess.run([sys.executable, "-c", loaded], capture_output=True, check=True)
     assert said.stdout.strip() == b"False"

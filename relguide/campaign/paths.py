@@ -32,13 +32,13 @@ EVERY: Second = 1.0
 
 
 def path_in_air(segments: Sequence[PathSegment], wind: Wind) -> Floats:
-    """Points of a plan's path in the air mass of its start: x, y. shape (n, 2)"""
+    """Points of a plan's path in the air mass of its start: x, y. shape (n, 2)."""
     end = segments[-1].end
     return np.vstack([*(_points(segment, wind) for segment in segments), _in_air(end, wind)])
 
 
 def _points(segment: PathSegment, wind: Wind) -> Floats:
-    """From the start of a segment on; its end is the start of the next. shape (n, 2)"""
+    """From the start of a segment on; its end is the start of the next. shape (n, 2)."""
     start = segment.start
     match segment:
         case StraightSegment():
@@ -58,7 +58,7 @@ def _points(segment: PathSegment, wind: Wind) -> Floats:
 
 
 def _in_air(point: PathPoint, wind: Wind) -> Floats:
-    """Where a place of a path is in the air mass. shape (1, 2)"""
+    """Where a place of a path is in the air mass. shape (1, 2)."""
     return np.array([[point.x - wind.east * point.t, point.y - wind.north * point.t]])
 
 

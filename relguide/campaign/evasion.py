@@ -1,19 +1,27 @@
 """What any turn begun at once would keep of d_min: whether a loss could have been avoided."""
 
-from math import hypot
+from math import hypot, inf
 
+from relguide.flying.airframe import airframe
 from relguide.kernels.base.turn import turn_rate
-from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Body, Control
+from relguide.kernels.flight.flight_records import (
+    HOLD_HEADING,
+    TURN_RATE,
+    Body,
+    Control,
+    Drift,
+    Limits,
+)
 from relguide.kernels.flight.lateral import lateral_step
 from relguide.planning.situation import Situation
 from relguide.units import DEG, Metre, Radian, Second
-from tests.aloft import STILL, limits_of
 
 AHEAD: Second = 150.0
 """How long a turn must keep clear; a later loss is not one of the start."""
 EVERY: Radian = 10.0 * DEG
 """Between the turns that are tried, to each side up to a full circle."""
 STEP: Second = 0.1
+STILL = Drift(0.0, 0.0)
 
 
 def best_turn(situation: Situation) -> Metre:
@@ -39,7 +47,7 @@ def _kept_separation(
 ) -> Metre:
     """What one turn keeps; less than `enough` is not looked at to its end."""
     begun = situation.pursuer
-    limits = limits_of(max_bank=begun.max_bank)
+    limits = _limits(begun.max_bank)
     out = begun.heading + side * angle
     turning = Control(TURN_RATE, side * turn_rate(begun.tas, begun.max_bank), begun.tas)
     straight = Control(HOLD_HEADING, out, begun.tas)
@@ -54,6 +62,15 @@ def _kept_separation(
         flown = turning if to_go > turn_rate(begun.tas, begun.max_bank) * roll_out else straight
         body = lateral_step(body, flown, limits, STILL, STEP)
     return least
+
+
+def _limits(max_bank: Radian) -> Limits:
+    """Of an A300 that keeps its speed."""
+    kind = airframe("A306")
+    return Limits(
+        max_bank, kind.max_roll_rate, kind.roll_time_constant, kind.speed_time_constant,
+        kind.max_acceleration, kind.max_deceleration, 0.0, inf,
+    )  # fmt: skip
 
 
 def _steps() -> int:

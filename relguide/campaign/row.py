@@ -1,12 +1,7 @@
-"""The figures of one flight, a line of JSON each, and the files that keep them."""
+"""The figures of one flight, and those of them that tables show."""
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
-from hashlib import sha256
-from json import JSONDecodeError, dumps, loads
-from pathlib import Path
-
-import relguide
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,6 +45,8 @@ class Row:
     below_s: float
     """Seconds below d_min."""
     losses: tuple[Loss, ...]
+    silent_losses: int
+    """Those that nothing announced."""
     shown_replans: int
     all_replans: int
     reversals: int
@@ -58,6 +55,8 @@ class Row:
     """Beyond those of the plan at engagement; `None` if there was none."""
     unplanned_reversals: int | None
     """Beyond those of all plans, each as far as it was flown; `None` if there was none."""
+    swing_deg: float
+    """All that the heading turned until joined."""
     loops: int
     """Full circles that neither the plans, as far as they were flown, nor the leader had."""
     lone_loops: int
@@ -66,8 +65,13 @@ class Row:
     """Largest between held headings of two seconds without an announcement."""
     cross_track_m: float
     """Largest distance from the path of the last plan, while it is flown."""
+    optimum_s: float | None = None
+    """Of the fastest plan to the final leg, all known; `None` without, or with orders."""
+    over_optimum_s: float | None = None
+    """How much later it joined; below 0, where it joined before the leader's last turn."""
+    why_not_joined: str = ""
     join_over_last_promise: float | None = None
-    """The same from the plan last announced, and by its promise."""
+    """Over the promise from the plan last announced, and by its promise."""
     off_announced_m: float = 0.0
     """The same from the path last announced to the crew."""
     off_forecast_m: float | None = None
@@ -86,80 +90,9 @@ class Row:
         return f"{self.family} {self.number}"
 
     @property
-    def silent_losses(self) -> int:
-        """Losses that nothing announced."""
-        return sum(loss.announced_s is None for loss in self.losses)
-
-    @property
     def avoidable(self) -> bool:
         """Whether d_min was lost and need not have been."""
         return bool(self.losses) and (self.best_turn_share is None or self.best_turn_share >= 1.0)
-
-
-def row_from(line: str) -> Row:
-    """A row from its line.
-
-    Raises:
-        ValueError: if it is none.
-    """
-    try:
-        content = loads(line)
-        losses = tuple(Loss(**loss) for loss in content.pop("losses"))
-        return Row(**content, losses=losses)
-    except (JSONDecodeError, KeyError, TypeError) as broken:
-        raise ValueError(f"This is no line of a campaign: {line[:60]}") from broken
-
-
-def begin_file(file: Path) -> None:
-    """Begin a file of rows, or make sure that it was begun by this version of the library.
-
-    Raises:
-        ValueError: if it was begun by another, whose flights are not the same.
-    """
-    file.parent.mkdir(parents=True, exist_ok=True)
-    if not file.exists():
-        file.write_text(dumps({"code": code_digest()}) + "\n")
-        return
-    read_rows(file)
-    begun = loads(file.read_text().partition("\n")[0]).get("code")
-    if begun != code_digest():
-        raise ValueError(
-            f"{file} was begun by another version of relguide: delete it, or name another."
-        )
-
-
-def read_rows(file: Path) -> list[Row]:
-    """The rows of a file.
-
-    A last line that was cut short, when the run was stopped, is taken off the file.
-
-    Raises:
-        ValueError: if it is a file of something else.
-        OSError: if it cannot be read.
-    """
-    text = file.read_text()
-    whole = text[: text.rfind("\n") + 1]
-    if whole != text:
-        file.write_text(whole)
-    first, *lines = whole.splitlines() or [""]
-    if not first.startswith('{"code"'):
-        raise ValueError(f"{file} is no file of a campaign: it begins with {first[:60]!r}.")
-    return [row_from(line) for line in lines]
-
-
-def code_digest() -> str:
-    """A digest of what decides how flights are flown and judged."""
-    digest = sha256()
-    for folder in (Path(relguide.__file__).parent, Path(__file__).parent):
-        for source in sorted(folder.rglob("*.py")):
-            digest.update(source.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-def append_row(file: Path, row: Row) -> None:
-    """Keep a row."""
-    with file.open("a") as lines:
-        lines.write(dumps(asdict(row)) + "\n")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -171,8 +104,8 @@ class Figure:
     heading: str
     decimals: int = 0
     low_is_worse: bool = False
-    scale: float = field(default=1.0)
-    offset: float = field(default=0.0)
+    scale: float = 1.0
+    offset: float = 0.0
 
     def values(self, rows: Sequence[Row]) -> list[tuple[float, Row]]:
         """What rows have of it, with the row; what has none is left out."""
@@ -202,11 +135,13 @@ FIGURES = (
         scale=100.0,
         offset=-1.0,
     ),
+    Figure(name="over_optimum_s", heading="join over optimum, s"),
     Figure(name="least_share", heading="least separation, d_min", decimals=4, low_is_worse=True),
     Figure(name="below_s", heading="below d_min, s"),
     Figure(name="silent_losses", heading="losses without a word"),
     Figure(name="shown_replans", heading="replans shown"),
     Figure(name="all_replans", heading="replans in all"),
+    Figure(name="swing_deg", heading="heading turned, °"),
     Figure(name="extra_reversals", heading="bank reversals beyond the first plan's"),
     Figure(name="unplanned_reversals", heading="bank reversals beyond all plans'"),
     Figure(name="loops", heading="circles not planned"),

@@ -10,13 +10,10 @@ import logging
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Executor, Future
 from contextlib import contextmanager
-from functools import cache
-from hashlib import sha256
-from importlib.metadata import version
-from pathlib import Path
 from time import monotonic
 from typing import Any, TypeVar
 
+from relguide.parallel.program import PACKAGES, program
 from relguide.planning.extras import need
 from relguide.units import Second
 
@@ -29,10 +26,6 @@ NO_WORKERS: Second = 120.0
 """How long a cluster without workers is waited for: a machine takes about a minute to start."""
 COUNTED_EVERY: Second = 2.0
 """Between two looks at how many workers there are."""
-PACKAGES = ("relguide", "numpy", "numba")
-"""What a part's last digits depend on."""
-PARTS_OF_IT = ("cli/batch", "contract", "flying", "kernels", "learn", "planning")
-"""The folders whose code makes parts."""
 
 
 @contextmanager
@@ -131,18 +124,6 @@ class ClusterExecutor(Executor):
         if missed > COUNTED_EVERY and not self._said:
             self._said = True
             self._say(f"{self._address} has no workers: waiting up to {NO_WORKERS:g} s for one.")
-
-
-@cache
-def program() -> tuple[tuple[str, str], ...]:
-    """The program here: packages with their versions, and a fingerprint of our own code."""
-    found = sha256()
-    here = Path(__file__).parents[1]
-    for folder in PARTS_OF_IT:
-        for file in sorted((here / folder).rglob("*.py")):
-            found.update(file.relative_to(here).as_posix().encode() + file.read_bytes())
-    versions = {name: version(name) for name in PACKAGES}
-    return (*versions.items(), ("its code", found.hexdigest()[:12]))
 
 
 def make_alike(

@@ -1,0 +1,103 @@
+"""A flight is drawn from its number alone; what is swept is all that differs."""
+
+from math import hypot
+from typing import Any
+
+import pytest
+
+from relguide.campaign.campaign_file import read_campaign
+from relguide.campaign.draw import draw_flight
+from relguide.campaign.families import draw
+from relguide.campaign.keys import KEYS
+from relguide.units import DEG
+
+
+def campaign(family: str = "declared", **tables: Any) -> Any:
+    return read_campaign({"campaign": {"flights": 5, "family": family, "seed": 3}, **tables})
+
+
+def test_points_of_a_sweep_are_pairs() -> None:
+    swept = campaign(
+        vary={"leader_tas_share": {"uniform": [0.6, 0.9]}},
+        sweep={"wind_error_mps": [0.0, 5.0, 10.0], "max_bank_deg": [20.0, 25.0]},
+    )
+    first, *others = (draw_flight(swept, 6 + at) for at in range(6))
+    assert first.case.number == 1
+    for other in others:
+        assert other.case.number == 1
+        assert other.values["leader_tas_share"] == first.values["leader_tas_share"]
+        ours, theirs = (one.case.scenario.situation for one in (first, other))
+        assert ours.leader == theirs.leader
+        assert (ours.pursuer.x, ours.pursuer.y) == (theirs.pursuer.x, theirs.pursuer.y)
+    five, ten = (draw_flight(swept, 6 + at).case.wind_error for at in (2, 4))
+    assert (five.speed, ten.speed) == (pytest.approx(5.0), pytest.approx(10.0))
+    assert ten.east == pytest.approx(2.0 * five.east)  # the same side
+
+
+def test_what_is_varied_besides_changes_no_other_draw() -> None:
+    one = campaign(vary={"wind_error_mps": {"normal": [0, 3]}})
+    more = campaign(
+        vary={"wind_error_mps": {"normal": [0, 3]}, "wind_mps": {"uniform": [0, 30]}},
+    )
+    alone, beside = (draw_flight(asked, 4) for asked in (one, more))
+    assert alone.values["wind_error_mps"] == beside.values["wind_error_mps"]
+    assert alone.case.wind_error == beside.case.wind_error
+
+
+def test_a_derived_family_begins_as_its_base() -> None:
+    base = draw("declared", 2, seed=3)
+    derived = draw_flight(campaign("wind_error"), 2)
+    assert derived.case.scenario.situation == base.scenario.situation
+    assert derived.case.wind_error.speed == pytest.approx(abs(derived.values["wind_error_mps"]))
+    assert draw_flight(campaign("exact"), 2).case.scenario.situation == base.scenario.situation
+
+
+VALUES = {
+    "altitude_m": 7000.0, "isa_deviation_k": 5.0, "pursuer_tas_mps": 210.0, "max_bank_deg": 20.0,
+    "leader_tas_mps": 160.0, "leader_tas_share": 0.7, "min_separation_m": 6000.0,
+    "slot_beyond_m": 500.0, "spacing_s": 60.0, "start_distance_m": 30_000.0,
+    "start_bearing_deg": 90.0, "wind_mps": 12.0, "wind_from_deg": 45.0, "wind_error_mps": 4.0,
+    "isa_error_k": -3.0, "roll_rate_factor": 0.8, "roll_lag_factor": 1.2, "speed_lag_factor": 1.1,
+    "acceleration_factor": 0.5, "deceleration_factor": 0.5,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_each_key_changes_what_it_says(key: str) -> None:
+    case = draw_flight(campaign(vary={key: VALUES[key]}), 1).case
+    scenario, world = case.scenario, case.world()
+    situation = scenario.situation
+    pursuer, leader = situation.pursuer, situation.leader
+    east, north = pursuer.x - leader.x, pursuer.y - leader.y
+    true, believed = world.aircraft[0].airframe, world.aircraft[0].known_airframe
+    air = world.believed_air or world.air
+    found = {
+        "altitude_m": world.aircraft[0].altitude,
+        "isa_deviation_k": world.air.isa_deviation,
+        "pursuer_tas_mps": pursuer.tas,
+        "max_bank_deg": pursuer.max_bank / DEG,
+        "leader_tas_mps": leader.tas,
+        "leader_tas_share": leader.tas / pursuer.tas,
+        "min_separation_m": situation.min_separation,
+        "slot_beyond_m": situation.slot_distance - situation.min_separation,
+        "spacing_s": world.links[0].spacing,
+        "start_distance_m": hypot(east, north),
+        "start_bearing_deg": 90.0 if east > 0.0 and abs(north) < 1e-6 else None,
+        "wind_mps": world.air.wind.speed,
+        "wind_from_deg": 45.0 if world.air.wind.east == pytest.approx(world.air.wind.north) else 0,
+        "wind_error_mps": hypot(
+            air.wind.east - world.air.wind.east, air.wind.north - world.air.wind.north
+        ),
+        "isa_error_k": air.isa_deviation - world.air.isa_deviation,
+        "roll_rate_factor": true.max_roll_rate / believed.max_roll_rate,
+        "roll_lag_factor": true.roll_time_constant / believed.roll_time_constant,
+        "speed_lag_factor": true.speed_time_constant / believed.speed_time_constant,
+        "acceleration_factor": true.max_acceleration / believed.max_acceleration,
+        "deceleration_factor": true.idle_deceleration / believed.idle_deceleration,
+    }
+    assert found[key] == pytest.approx(VALUES[key])
+
+
+def test_there_is_no_flight_beyond_the_last() -> None:
+    with pytest.raises(ValueError, match="has the flights 0 to 4, and no 5"):
+        draw_flight(campaign(), 5)
