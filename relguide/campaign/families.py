@@ -44,16 +44,18 @@ FIRST_TURN: Second = 25.0
 CONSTANTS = (
     "max_roll_rate",
     "roll_time_constant",
-    "max_acceleration",
-    "max_deceleration",
+    "thrust_share",
+    "speed_brake_drag",
     "speed_time_constant",
 )
-"""Of an aircraft, all unknown to guidance in the family `aircraft`; idle thrust decelerates as much
-less or more as brakes do. The bank limit is a setting of the autopilot, and known."""
+"""Of an aircraft, all unknown to guidance in the family `aircraft`. The bank limit is a setting of
+the autopilot, and known."""
+THRUST = 0.3
+"""Acceleration is what thrust leaves of drag: so much of its change changes it as much."""
 SPREAD = 0.3
 """How far they are off at most."""
 POOR_BRAKES = 0.25
-"""[m/s²], and as a factor: what guidance believes is 1 m/s². Every other aircraft has them."""
+"""As a factor of what guidance believes of their drag. Every other aircraft has them."""
 IN_HAND = 1.1
 """Behind a recorded leader the pursuer flies faster than its least speed by this factor."""
 
@@ -124,9 +126,9 @@ def _draw_aircraft(rng: Draw, family: str, number: int) -> Case:
     """An aircraft that guidance knows badly; intent known."""
     case = _case(family, number, draw_situation(rng, draw_turns(rng) if rng.random() < 0.5 else ()))
     factors = {name: float(rng.uniform(1.0 - SPREAD, 1.0 + SPREAD)) for name in CONSTANTS}
+    factors["thrust_share"] = 1.0 + THRUST * (factors["thrust_share"] - 1.0)
     if number % 2:
-        factors["max_deceleration"] = POOR_BRAKES
-    factors["idle_deceleration"] = factors["max_deceleration"]
+        factors["speed_brake_drag"] = POOR_BRAKES
     return replace(case, factors=factors)
 
 

@@ -36,7 +36,7 @@ from relguide.flying.documents import (
 from relguide.flying.orders import Command
 from relguide.flying.simulation import simulate
 from relguide.kernels.base.angles import wrap_signed
-from relguide.planning.plan import Plan, plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation, Wind
 from relguide.units import DEG, Metre, Second
 
@@ -92,7 +92,7 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     assert isinstance(last, FlightEnded)
     (end,) = last.results
     situation = case.scenario.situation
-    optimum = _optimum(case)
+    optimum = end.optimum if end.optimum and case.leader_as_declared else None
     samples = [instant(document) for document in documents if isinstance(document, Sample)]
     changed = [document for document in documents if isinstance(document, PlanChanged)]
     engaged = changed[0] if end.planned_time > 0.0 else None
@@ -136,6 +136,8 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         if engaged
         else None,
         unplanned_reversals=end.bank_reversals - reversals(turns) if engaged else None,
+        along_error_m=end.along_error,
+        across_error_m=end.across_error,
         swing_deg=end.heading_swing / DEG,
         loops=max(loops, 0),
         lone_loops=lone_circles(
@@ -154,12 +156,6 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         if losses and engaged is None and losses[0].t_s < AHEAD
         else None,
     )
-
-
-def _optimum(case: Case) -> Second | None:
-    """What the fastest plan takes that knows all, where the leader flies what it declared."""
-    best = plan(case.scenario.situation) if case.leader_as_declared else None
-    return best.time_to_converge if isinstance(best, Plan) else None
 
 
 def _why_not(documents: Sequence[Document]) -> str:

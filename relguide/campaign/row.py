@@ -65,6 +65,10 @@ class Row:
     """Largest between held headings of two seconds without an announcement."""
     cross_track_m: float
     """Largest distance from the path of the last plan, while it is flown."""
+    along_error_m: float = 0.0
+    """Largest distance along the route from where it should be, while it followed."""
+    across_error_m: float = 0.0
+    """The same beside the route."""
     optimum_s: float | None = None
     """Of the fastest plan to the final leg, all known; `None` without, or with orders."""
     over_optimum_s: float | None = None
@@ -150,6 +154,8 @@ FIGURES = (
     Figure(name="cross_track_m", heading="off the plan's path, m"),
     Figure(name="off_announced_m", heading="off the announced path, m"),
     Figure(name="off_forecast_m", heading="off the forecast, m"),
+    Figure(name="along_error_m", heading="off along the route, following, m"),
+    Figure(name="across_error_m", heading="off beside the route, following, m"),
     Figure(name="fastest_mps", heading="fastest, m/s", decimals=1),
     Figure(name="cpu_s", heading="CPU, s", decimals=2),
 )

@@ -113,4 +113,6 @@ def test_the_file_is_named(tmp_path: Path) -> None:
 def test_a_key_is_no_figure_and_names_its_unit() -> None:
     assert not set(KEYS) & set(Row.__dataclass_fields__)
     for name in KEYS:
-        assert name.endswith(("_m", "_mps", "_deg", "_s", "_k", "_share", "_factor"))
+        assert name.endswith(
+            ("_m", "_mps", "_deg", "_s", "_k", "_kg", "_share", "_factor", "nacp", "nacv")
+        )
