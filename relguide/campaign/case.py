@@ -18,6 +18,8 @@ class Case:
     family: str
     number: int
     scenario: Scenario
+    noise_seed: int
+    """Of gusts and of what reports have wrong."""
     orders: tuple[tuple[Second, Command], ...] = ()
     """Commands to the leader, each at its time, in order."""
     factors: Mapping[str, float] = field(default_factory=dict)

@@ -67,7 +67,7 @@ def documents_of(case: Case, sample_period: Second = EVERY) -> Iterator[Document
         title=scenario.title,
         commands=_orders(case.orders),
         sample_period=sample_period,
-        seed=case.number,
+        seed=case.noise_seed,
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
     )

@@ -28,6 +28,7 @@ def test_points_of_a_sweep_are_pairs() -> None:
         assert other.values["leader_tas_share"] == first.values["leader_tas_share"]
         ours, theirs = (one.case.scenario.situation for one in (first, other))
         assert ours.leader == theirs.leader
+        assert other.case.noise_seed == first.case.noise_seed
         assert (ours.pursuer.x, ours.pursuer.y) == (theirs.pursuer.x, theirs.pursuer.y)
     five, ten = (draw_flight(swept, 6 + at).case.wind_error for at in (2, 4))
     assert (five.speed, ten.speed) == (pytest.approx(5.0), pytest.approx(10.0))
