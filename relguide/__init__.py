@@ -55,12 +55,12 @@ if typing.TYPE_CHECKING:
     from relguide.flying.orders import LeaderSpeed as LeaderSpeed
     from relguide.flying.orders import PursuerHeading as PursuerHeading
     from relguide.flying.orders import SetEngagement as SetEngagement
+    from relguide.flying.recordings.files import load_track as load_track
     from relguide.flying.scenarios import own_scenario as own_scenario
     from relguide.flying.scenarios import scenario as scenario
     from relguide.flying.scenarios import scenario_behind as scenario_behind
     from relguide.flying.simulation import simulate as simulate
     from relguide.flying.tracks import RecordedTrack as RecordedTrack
-    from relguide.flying.tracks import load_track as load_track
     from relguide.flying.world import Aircraft as Aircraft
     from relguide.flying.world import Declared as Declared
     from relguide.flying.world import Guided as Guided
@@ -148,7 +148,7 @@ _HOMES = {
     "scenario": "relguide.flying.scenarios",
     "scenario_behind": "relguide.flying.scenarios",
     "RecordedTrack": "relguide.flying.tracks",
-    "load_track": "relguide.flying.tracks",
+    "load_track": "relguide.flying.recordings.files",
     "Settings": "relguide.flying.guidance.settings",
     "load_settings": "relguide.flying.guidance.settings",
     "simulate": "relguide.flying.simulation",

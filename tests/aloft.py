@@ -29,7 +29,7 @@ def limits_of(
     *,
     max_bank: Radian = MAX_BANK,
     min_tas: MetrePerSecond = 100.0,
-    max_tas: MetrePerSecond = 280.0,
+    max_tas: MetrePerSecond = 250.0,
 ) -> Limits:
     """What a type can do at FL310, by an autopilot that may bank so much."""
     climb, idle, brakes, induced = kind.energy(FL310, STANDARD_AIR)

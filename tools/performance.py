@@ -23,7 +23,8 @@ ENGINES = {"A306": "CF6-80C2A5", "A310": "CF6-80C2A2"}
 """As openap names them: of the A300 B4-605R and of the A310-304."""
 SPANS_AND_AREAS = {"A306": (44.84, 260.0), "A310": (43.9, 219.0)}
 """[m], [m²]."""
-LEVELS_FT = range(0, 50_000, 5_000)
+LEVELS_FT = (0, 5_000, 10_000, 15_000, 20_000, 25_000, 30_000, 31_000, 35_000, 40_000, 45_000)
+"""Every 5,000 ft, and one just above FL300, where openap's thrust has a step."""
 MACHS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 ATR_LEVELS_FT = range(0, 30_000, 5_000)
 ATR_MACHS = (0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6)

@@ -1,8 +1,7 @@
 """What any turn begun at once would keep of d_min: whether a loss could have been avoided."""
 
-from math import hypot
+from math import hypot, inf
 
-from relguide.flying.air import STANDARD_AIR
 from relguide.flying.airframe import airframe
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import (
@@ -14,7 +13,7 @@ from relguide.kernels.flight.flight_records import (
     Limits,
 )
 from relguide.kernels.flight.lateral import lateral_step
-from relguide.planning.situation import Pursuer, Situation
+from relguide.planning.situation import Situation
 from relguide.units import DEG, Metre, Radian, Second
 
 AHEAD: Second = 150.0
@@ -23,7 +22,6 @@ EVERY: Radian = 10.0 * DEG
 """Between the turns that are tried, to each side up to a full circle."""
 STEP: Second = 0.1
 STILL = Drift(0.0, 0.0)
-LEVEL: Metre = 7_500.0
 
 
 def best_turn(situation: Situation) -> Metre:
@@ -49,7 +47,7 @@ def _kept_separation(
 ) -> Metre:
     """What one turn keeps; less than `enough` is not looked at to its end."""
     begun = situation.pursuer
-    limits = _limits(begun)
+    limits = _limits(begun.max_bank)
     out = begun.heading + side * angle
     turning = Control(TURN_RATE, side * turn_rate(begun.tas, begun.max_bank), begun.tas)
     straight = Control(HOLD_HEADING, out, begun.tas)
@@ -66,12 +64,12 @@ def _kept_separation(
     return least
 
 
-def _limits(begun: Pursuer) -> Limits:
-    """Of an A300 that keeps its speed; the level makes no difference."""
+def _limits(max_bank: Radian) -> Limits:
+    """Of an A300 that keeps its speed."""
     kind = airframe("A306")
-    rolls = begun.max_bank, kind.max_roll_rate, kind.roll_time_constant, kind.speed_time_constant
-    climb, idle, brakes, induced = kind.energy(LEVEL, STANDARD_AIR)
-    return Limits(*rolls, *climb, *idle, brakes, induced, 1.0, begun.tas, begun.tas)
+    rolls = max_bank, kind.max_roll_rate, kind.roll_time_constant, kind.speed_time_constant
+    thrust = 1.0, 0.0, 0.0
+    return Limits(*rolls, *thrust, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, inf)
 
 
 def _steps() -> int:

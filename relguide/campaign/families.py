@@ -44,18 +44,19 @@ FIRST_TURN: Second = 25.0
 CONSTANTS = (
     "max_roll_rate",
     "roll_time_constant",
-    "thrust_share",
-    "speed_brake_drag",
     "speed_time_constant",
+    "speed_brake_drag",
 )
 """Of an aircraft, all unknown to guidance in the family `aircraft`. The bank limit is a setting of
 the autopilot, and known."""
-THRUST = 0.3
-"""Acceleration is what thrust leaves of drag: so much of its change changes it as much."""
 SPREAD = 0.3
 """How far they are off at most."""
-POOR_BRAKES = 0.25
-"""As a factor of what guidance believes of their drag. Every other aircraft has them."""
+ENERGY = ("thrust_share", "zero_lift_drag", "induced_drag")
+"""Unknown as well, and …"""
+ENERGY_SPREAD = 0.05
+"""… so far off at most: speed is the difference of thrust and drag."""
+POOR_BRAKES = 0.0
+"""Factor: speed brakes that stay in. Every other aircraft has them."""
 IN_HAND = 1.1
 """Behind a recorded leader the pursuer flies faster than its least speed by this factor."""
 
@@ -126,7 +127,9 @@ def _draw_aircraft(rng: Draw, family: str, number: int) -> Case:
     """An aircraft that guidance knows badly; intent known."""
     case = _case(family, number, draw_situation(rng, draw_turns(rng) if rng.random() < 0.5 else ()))
     factors = {name: float(rng.uniform(1.0 - SPREAD, 1.0 + SPREAD)) for name in CONSTANTS}
-    factors["thrust_share"] = 1.0 + THRUST * (factors["thrust_share"] - 1.0)
+    factors |= {
+        name: float(rng.uniform(1.0 - ENERGY_SPREAD, 1.0 + ENERGY_SPREAD)) for name in ENERGY
+    }
     if number % 2:
         factors["speed_brake_drag"] = POOR_BRAKES
     return replace(case, factors=factors)

@@ -1,11 +1,10 @@
-"""The recorded leaders of the campaign: every flight of one collection that makes a track."""
+"""The recorded leaders of the campaign: every callsign of one collection that makes a track."""
 
 from functools import lru_cache
 
-import numpy as np
-
-from relguide.flying import tracks
-from relguide.flying.tracks import QUICKSTART, ROW, RecordedTrack
+from relguide.flying.recordings.flights import choose
+from relguide.flying.recordings.samples import QUICKSTART, collection_flights
+from relguide.flying.tracks import RecordedTrack
 from relguide.units import Second
 
 LONG_ENOUGH: Second = 180.0
@@ -18,7 +17,7 @@ def track(number: int) -> RecordedTrack:
     Raises:
         ValueError: if the recorded flights are not installed.
     """
-    found = _tracks()
+    found = all_tracks()
     return found[number % len(found)]
 
 
@@ -28,22 +27,18 @@ def count() -> int:
     Raises:
         ValueError: if they are not installed.
     """
-    return len(_tracks())
+    return len(all_tracks())
 
 
 @lru_cache(maxsize=1)
-def _tracks() -> tuple[RecordedTrack, ...]:
+def all_tracks() -> tuple[RecordedTrack, ...]:
     """All of them, from one reading of the file; `load_sample` would read it for each."""
-    by_name: dict[str, list[dict[str, object]]] = {}
-    for row in tracks._sample(QUICKSTART):
-        if row.get("callsign"):
-            by_name.setdefault(str(row["callsign"]), []).append(row)
+    flights = collection_flights(QUICKSTART)
     found = []
-    for name, rows in sorted(by_name.items()):
-        numbers = np.array([[row.get(column) for column in ROW] for row in rows], dtype=np.float64)
-        numbers[:, 0] /= 1000.0  # from milliseconds
+    for name in sorted({flight.callsign for flight in flights if flight.callsign}):
+        its = [flight for flight in flights if flight.callsign == name]
         try:
-            made = tracks._track(name, str(rows[0].get("typecode") or ""), numbers, name)
+            made = choose(its, name, QUICKSTART)
         except ValueError:  # it never flies, or has no positions
             continue
         if made.duration >= LONG_ENOUGH:

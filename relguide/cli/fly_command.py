@@ -18,6 +18,8 @@ from relguide.planning.limits import SPACING
 if TYPE_CHECKING:
     from relguide.contract.orders import Order
     from relguide.flying.flight import Scenario
+    from relguide.flying.tracks import RecordedTrack
+    from relguide.planning.situation import Situation
 
 PURPOSE = "fly a scenario, a situation or behind a recorded track"
 EXAMPLES = """
@@ -26,6 +28,8 @@ EXAMPLES = """
     relguide fly situation.json --record a.jsonl your own situation, recorded each second
     relguide fly fig_6b --record a.jsonl --sample-rate 20
     relguide fly track.csv                       behind a recorded ADS-B track
+    relguide fly day.csv.gz --callsign SVA127    behind one of several in a file
+    relguide fly quickstart:SVA127               behind one of the package traffic's
     relguide fly random --seed 7                 a flight drawn from that number
     relguide fly fig_6b --spacing 60             once joined, a minute behind
     relguide fly fig_6b --orders orders.jsonl    the leader does as it is ordered, a line an order:
@@ -45,7 +49,16 @@ seconds and is no part of what is measured."""
 def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of `relguide fly`."""
     parser.add_argument(
-        "scenario", metavar="SCENARIO|FILE", help="a scenario's name, a .json or a .csv file"
+        "scenario",
+        metavar="SCENARIO|FILE|COLLECTION:NAME",
+        help="a scenario's name, a situation in .json, a file of recorded flights (.csv, .tsv, "
+        ".scn, .json; also .gz), or a recorded flight of the package traffic",
+    )
+    parser.add_argument(
+        "--callsign",
+        metavar="NAME",
+        default="",
+        help="which of a file's flights leads: its callsign or address; NAME/2 is its second one",
     )
     parser.add_argument(
         "--record", metavar="FILE", type=_recording, help="write a .jsonl or .jsonl.gz recording"
@@ -101,7 +114,8 @@ def run(chosen: argparse.Namespace) -> int:
     if chosen.sample_rate is not None and chosen.record is None:
         raise ValueError("--sample-rate is for a recording: add --record FILE.")
     orders = _orders(chosen)
-    scenario = _following_for(_scenario(chosen.scenario, chosen.seed), chosen.after_joining)
+    scenario = _scenario(chosen.scenario, chosen.seed, chosen.callsign)
+    scenario = _following_for(scenario, chosen.after_joining)
     if chosen.spacing is not None:
         scenario = replace(scenario, spacing=chosen.spacing)
     settings = DEFAULT if chosen.settings is None else load_settings(chosen.settings)
@@ -166,7 +180,7 @@ def _following_for(scenario: "Scenario", after_joining: float) -> "Scenario":
     )
 
 
-def _scenario(name: str, seed: int) -> "Scenario":
+def _scenario(name: str, seed: int, callsign: str) -> "Scenario":
     from relguide.flying.scenarios import (
         SCENARIOS,
         no_scenario,
@@ -176,13 +190,15 @@ def _scenario(name: str, seed: int) -> "Scenario":
         scenario_behind,
     )
 
+    track = _recorded(name, callsign)
+    if track is not None:
+        say(track.taken)
+        return scenario_behind(track)
+    if callsign:
+        raise ValueError(f"--callsign is for a file of recorded flights, and {name} is none.")
     path = Path(name)
-    if path.suffix == ".csv":
-        from relguide.flying.tracks import load_track
-
-        return scenario_behind(load_track(path))
-    if path.suffix == ".json" or name == "-" or path.is_file():
-        situation, _, _ = read_situation(name)
+    if path.suffix.lower() == ".json" or name == "-" or path.is_file():
+        situation = _situation(path if name != "-" else None)
         title = (
             "The situation of standard input" if name == "-" else f"The situation of {path.name}"
         )
@@ -192,6 +208,33 @@ def _scenario(name: str, seed: int) -> "Scenario":
     if name not in SCENARIOS:
         raise ValueError(no_scenario(name, [*SCENARIOS, "random"]))
     return scenario(name)
+
+
+def _recorded(name: str, callsign: str) -> "RecordedTrack | None":
+    """The recorded leader that is meant, if one is."""
+    from relguide.flying.recordings.files import is_recording, load_track
+    from relguide.flying.recordings.samples import load_sample
+
+    path = Path(name)
+    collection, _, flight = name.partition(":")
+    if flight and not path.exists():
+        return load_sample(flight, collection)
+    if name != "-" and is_recording(path):
+        return load_track(path, callsign)
+    return None
+
+
+def _situation(path: Path | None) -> "Situation":
+    """The situation of a file, or of standard input."""
+    from relguide.contract.refusal import ContractError
+    from relguide.flying.recordings.files import FORMS
+
+    try:
+        return read_situation("-" if path is None else str(path))[0]
+    except ContractError as refused:
+        if path is None or path.suffix.lower() == ".json":
+            raise
+        raise ValueError(f"{refused} Flown are situations (.json) and {FORMS}.") from None
 
 
 def _seed(text: str) -> int:

@@ -8,7 +8,7 @@ and the plane's north. Wind and intent are taken at the leader.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import atan2, degrees, hypot, isfinite, radians
+from math import degrees, hypot, isfinite, radians
 from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
@@ -269,7 +269,7 @@ def _aircraft(body: SituationBody) -> tuple[Pursuer, Leader, Anchor]:
         case GeodeticPursuer() as p, GeodeticLeader() as l:
             plane = LocalPlane(l.lat_deg, l.lon_deg)
             x, y = _project_near(plane, p)
-            heading = heading_of(p.heading_deg + _meridian(plane, p.lat_deg, p.lon_deg))
+            heading = heading_of(p.heading_deg + degrees(plane.meridian(p.lat_deg, p.lon_deg)))
             return (
                 _pursuer(p, x, y, heading),
                 _leader(l, 0.0, 0.0, heading_of(l.heading_deg)),
@@ -319,19 +319,11 @@ def _project_near(plane: LocalPlane, pursuer: GeodeticPursuer) -> tuple[float, f
     return x, y
 
 
-def _meridian(plane: LocalPlane, lat_deg: float, lon_deg: float) -> float:
-    """Direction of true north at a place, clockwise from the plane's north [°]."""
-    step = 1e-4 if lat_deg < 0.0 else -1e-4  # 11 m, toward the equator: there is no north of a pole
-    x, y = plane.to_local(lat_deg, lon_deg)
-    x_step, y_step = plane.to_local(lat_deg + step, lon_deg)
-    return degrees(atan2((x_step - x) / step, (y_step - y) / step))
-
-
 def _point_to_wire(point: dict[str, Any], plane: LocalPlane) -> dict[str, Any]:
     lat, lon = plane.to_geodetic(point["x_m"], point["y_m"])
     return {
         **point,
-        "heading_deg": compass(point["heading_deg"] - _meridian(plane, lat, lon)),
+        "heading_deg": compass(point["heading_deg"] - degrees(plane.meridian(lat, lon))),
         "lat_deg": lat,
         "lon_deg": lon,
     }

@@ -68,27 +68,38 @@ def _times(flown: Trajectory, end: Second) -> list[Second]:
     return [*(t for t in times if t < end), end]
 
 
-def _line(name: str, drawn: Samples, plane: LocalPlane, more: dict[str, str]) -> dict[str, Any]:
+def line_geometry(places: Sequence[list[float]]) -> dict[str, Any]:
+    """A line on the earth, cut where it passes 180° of longitude (RFC 7946, 3.1.9).
+
+    Args:
+        places: longitude, latitude [°] and what else each point has; one place is a point.
+    """
+    if len(places) == 1:
+        return {"type": "Point", "coordinates": places[0]}
     lines: list[list[list[float]]] = [[]]
-    places = _places(drawn, plane)
     for here, there in pairwise(places):
         lines[-1].append(here)
         if abs(there[0] - here[0]) > 180.0:
             edge = 180.0 if here[0] > 0.0 else -180.0
             share = (edge - here[0]) / (there[0] + 2.0 * edge - here[0] or 1.0)
-            lat = round(here[1] + share * (there[1] - here[1]), DECIMALS)
-            lines[-1].append([edge, lat])
-            lines.append([[-edge, lat]])
+            cut = [
+                round(a + share * (b - a), DECIMALS)
+                for a, b in zip(here[1:], there[1:], strict=True)
+            ]
+            lines[-1].append([edge, *cut])
+            lines.append([[-edge, *cut]])
     lines[-1].append(places[-1])
-    cut = len(lines) > 1
+    if len(lines) > 1:
+        return {"type": "MultiLineString", "coordinates": lines}
+    return {"type": "LineString", "coordinates": lines[0]}
+
+
+def _line(name: str, drawn: Samples, plane: LocalPlane, more: dict[str, str]) -> dict[str, Any]:
     return {
         "type": "Feature",
         "id": name,
         "properties": {"t_s": [round(t, 3) for t in drawn.t.tolist()], **more},
-        "geometry": {
-            "type": "MultiLineString" if cut else "LineString",
-            "coordinates": lines if cut else lines[0],
-        },
+        "geometry": line_geometry(_places(drawn, plane)),
     }
 
 

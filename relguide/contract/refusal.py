@@ -93,9 +93,8 @@ def loads(text: bytes | str) -> object:
     try:
         if isinstance(text, bytes):
             text = decode(text)
-        if text.startswith("\ufeff"):
-            raise json.JSONDecodeError("Unexpected UTF-8 BOM (decode using utf-8-sig)", text, 0)
-        parsed: object = _DECODER.decode(text)
+        # what spreadsheets and some editors put before JSON
+        parsed: object = _DECODER.decode(text.removeprefix("\ufeff"))
     except ContractError:
         raise
     except RecursionError:

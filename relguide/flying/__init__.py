@@ -3,7 +3,8 @@
 Read it in this order, from below:
 
 1. `air.py`, `airframe.py`, `envelope.py`: the air, and what an aircraft type can do in it.
-2. `tracks.py`, `smoothing.py`, `spline.py`, `leaders/`: what leaders fly, declared or recorded.
+2. `tracks.py`, `smoothing.py`, `spline.py`, `recordings/`, `leaders/`: what leaders fly, declared
+   or recorded.
 3. `belief.py`: what a pursuer knows; `modes.py`: which mode may follow which.
 4. `guidance/`: once a second, from belief to a reference and a speed. In it `settings.py` has all
    constants, `forecast.py` flies ahead, `committed.py` and `converge.py` choose the path,

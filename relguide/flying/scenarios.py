@@ -27,7 +27,8 @@ from relguide.flying.airframe import airframe
 from relguide.flying.dispersion import random_situation
 from relguide.flying.envelope import level_for
 from relguide.flying.flight import DEFAULT_TYPE, Scenario
-from relguide.flying.tracks import DEFAULT_LEADER, INSTALL, RecordedTrack, load_sample
+from relguide.flying.recordings.samples import DEFAULT_LEADER, INSTALL, load_sample
+from relguide.flying.tracks import RecordedTrack
 from relguide.planning.inputs import expect, number
 from relguide.planning.situation import CALM, FlyStraight, Leader, Pursuer, Situation, TurnTo
 from relguide.planning.trajectory import RIGHT
@@ -112,7 +113,8 @@ def scenario_behind(
     return Scenario(
         name="recorded_leader",
         title=TITLES["recorded_leader"],
-        description=DESCRIPTIONS["recorded_leader"],
+        description="The leader flies as it was recorded, its intent unknown; the pursuer begins "
+        f"{behind / 1000.0:g} km behind it and {abeam / 1000.0:g} km to its left. {track.taken}",
         situation=Situation(
             pursuer=Pursuer(
                 x=first.x - behind * along_x - abeam * along_y,
@@ -128,7 +130,7 @@ def scenario_behind(
         ),
         intent_known=False,
         leader_source=track,
-        leader_ident=track.ident,
+        leader_ident=track.ident or "LEADER",
         leader_type=track.aircraft_type or "unknown",
         altitude=first.altitude,
     )

@@ -57,6 +57,8 @@ class SmoothMotion:
     """Ground velocity toward the north [m/s]."""
     altitude: Array
     """[m]."""
+    unbelieved: int
+    """How many positions between its ends no aircraft can have flown."""
 
 
 def smooth_motion(
@@ -76,7 +78,8 @@ def smooth_motion(
     """
     order = np.argsort(t, kind="stable")
     t, place, velocity, altitude = t[order], place[order], velocity[order], altitude[order]
-    at, heard = _chain(t, _drop_repeats(place), MAX_SPEED, POSITION_SLACK)
+    fresh = _drop_repeats(place)
+    at, heard = _chain(t, fresh, MAX_SPEED, POSITION_SLACK)
     if len(at) < MIN_POINTS:
         raise ValueError(
             f"has no stretch of {MIN_POINTS} positions without a gap of more than {MAX_GAP:g} s; "
@@ -100,7 +103,15 @@ def smooth_motion(
     x, y = (base + correction.at(grid)).T
     east, north = (flown + correction.slope_at(grid)).T
     level = _altitude_on(grid, t, altitude)
-    return SmoothMotion(t=grid, x=x, y=y, east=east, north=north, altitude=level)
+    return SmoothMotion(
+        t=grid,
+        x=x,
+        y=y,
+        east=east,
+        north=north,
+        altitude=level,
+        unbelieved=int(np.sum(_known(fresh) & (t >= at[0]) & (t <= at[-1])) - near.sum()),
+    )
 
 
 def _velocity_on(grid: Array, t: Array, velocity: Array) -> Array | None:
@@ -124,10 +135,15 @@ def _altitude_on(grid: Array, t: Array, altitude: Array) -> Array:
 
 def _chain(t: Array, values: Array, max_rate: float, slack: float) -> tuple[Array, Array]:
     """The longest believable chain of the values that are not missing."""
-    known = np.all(np.isfinite(values), axis=1)
+    known = _known(values)
     t, values = t[known], values[known]
     chain = longest_chain(t, values, max_rate, slack)
     return t[chain], values[chain]
+
+
+def _known(values: Array) -> NDArray[np.bool_]:
+    known: NDArray[np.bool_] = np.all(np.isfinite(values), axis=1)
+    return known
 
 
 def _drop_repeats(place: Array) -> Array:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from math import cos, fmod, hypot, sin
 from typing import Literal
 
-from relguide.kernels.base.angles import turn_to
+from relguide.kernels.base.angles import TWO_PI, turn_to
 from relguide.kernels.base.turn import turn_radius
 from relguide.planning.inputs import expect, expect_within, number, turn_sign
 from relguide.planning.limits import (
@@ -34,6 +34,10 @@ from relguide.planning.wind import CALM as CALM
 from relguide.planning.wind import Wind as Wind
 from relguide.planning.wind import wind_from as wind_from
 from relguide.units import DEG, KT, NM, Metre, MetrePerSecond, Radian, Second
+
+ROUNDED: Radian = 1e-6
+"""A declared turn this close to a full one is none [rad]: headings that were kept as 32-bit numbers
+are off by up to 3e-7. The rest is flown the other way round."""
 
 
 def _settle(piece: object, name: str, value: object) -> None:
@@ -263,14 +267,11 @@ class Leader:
                     segments.append(Straight(length=self.tas * piece.duration))
                 case TurnTo():
                     # LEFT (+1) lowers the compass heading; to the present heading is no turn
-                    angle = turn_to(-piece.turn * (piece.heading - heading))
-                    segments.append(
-                        Arc(
-                            turn=piece.turn,
-                            turn_angle=angle,
-                            radius=turn_radius(self.tas, piece.bank),
-                        )
-                    )
+                    turn, angle = piece.turn, turn_to(-piece.turn * (piece.heading - heading))
+                    if TWO_PI - angle < ROUNDED:
+                        turn, angle = RIGHT if turn == LEFT else LEFT, TWO_PI - angle
+                    radius = turn_radius(self.tas, piece.bank)
+                    segments.append(Arc(turn=turn, turn_angle=angle, radius=radius))
                     heading = piece.heading
         flown = Trajectory(
             x=self.x, y=self.y, heading=self.heading, tas=self.tas, segments=tuple(segments)

@@ -9,9 +9,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.base.angles import FULL_TURN_SLACK, TWO_PI
 from relguide.kernels.maps import turning_rows as kernel
 from relguide.planning import limits
 from relguide.planning.batch import Floats, Situations
+from relguide.planning.situation import ROUNDED
 from relguide.planning.words import HORIZON
 from relguide.units import DEG
 
@@ -46,6 +48,22 @@ class Intents:
         # of several that are put in one place the last stays
         final[np.repeat(np.arange(len(self.counts)), self.counts)[turns]] = self.pieces[turns, 1]
         return final
+
+    def unrounded(self, headings: Floats) -> "Intents":
+        """The same from these headings, but turns that miss a full one by rounding the other way.
+
+        As `Leader.trajectory` has them; see `ROUNDED`.
+        """
+        turns = np.flatnonzero(self.pieces[:, 0])
+        whose = np.repeat(np.arange(len(self.counts)), self.counts)[turns]
+        before, to = headings[whose], self.pieces[turns, 1]
+        again = np.flatnonzero(np.diff(whose) == 0)
+        before[again + 1] = to[again]
+        missing = np.mod(self.pieces[turns, 0] * (to - before), TWO_PI)
+        around = turns[(missing > FULL_TURN_SLACK) & (missing < ROUNDED)]
+        pieces = self.pieces.copy()
+        pieces[around, 0] *= -1.0
+        return Intents(counts=self.counts, pieces=pieces)
 
     def __getitem__(self, rows: NDArray[np.bool_]) -> "Intents":
         """Some of them, by a mask."""
@@ -82,7 +100,8 @@ def turning_times(situations: Situations, intents: Intents) -> TurningTimes:
     rows = np.column_stack(situations.full_columns())
     starts = np.concatenate((np.zeros(1, np.int64), np.cumsum(intents.counts)))
     answers = np.empty((len(rows), 2))
-    kernel.turning_rows(rows, starts, intents.pieces, HORIZON, answers)
+    pieces = intents.unrounded(np.asarray(situations.leader_heading)).pieces
+    kernel.turning_rows(rows, starts, pieces, HORIZON, answers)
     return TurningTimes(
         answers[:, 0], answers[:, 1] == kernel.OPTIMUM, answers[:, 1] == kernel.ALREADY_LOST
     )

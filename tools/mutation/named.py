@@ -68,8 +68,8 @@ NAMED = (
     Named(
         name="how fast the leader slows down",
         file="relguide/flying/fleet.py",
-        before="DECLARED_DECELERATION = 0.5",
-        after="DECLARED_DECELERATION = 1.0",
+        before="slower = airframe.idle_deceleration(",
+        after="slower = 2.0 * airframe.idle_deceleration(",
     ),
     Named(
         name="how far apart the points of a boundary arc are sent",

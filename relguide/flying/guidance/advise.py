@@ -16,7 +16,7 @@ from relguide.flying.guidance.announcements import (
     leader_change,
 )
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.commit.better import better, may_be_improved
+from relguide.flying.guidance.commit.better import better, change_margin, may_be_improved
 from relguide.flying.guidance.commit.committed import (
     BRAKES_FOR,
     Committed,
@@ -25,7 +25,7 @@ from relguide.flying.guidance.commit.committed import (
 )
 from relguide.flying.guidance.commit.proposal import NoProposal, NotBetter, Proposal
 from relguide.flying.guidance.commit.propose import propose
-from relguide.flying.guidance.forecast import NO_COURSE
+from relguide.flying.guidance.forecast import NO_COURSE, forecast
 from relguide.flying.guidance.joining import judge_spacing, promise_anew
 from relguide.flying.guidance.leader_news import (
     is_steady,
@@ -161,13 +161,15 @@ def _stay_or_change(
     strayed = memory.forecast is not None and abs(right) > settings.strayed
     if strayed:
         return _plan_again(memory, belief, assignment, planner, reason="deviation")
-    if not as_forecast and (
-        now.intent_known != memory.expected.intent_known
-        or slot_mismatch(belief, committed) > settings.slot_moved + _slot_slack(belief, committed)
-    ):
-        stay = 0.0 if is_steady(memory, belief, assignment) else settings.better_while_turning
+    off = slot_mismatch(belief, committed) - committed.accepted
+    news = now.intent_known != memory.expected.intent_known
+    if not as_forecast and (news or off > settings.slot_moved + _slot_slack(belief, committed)):
+        steady = is_steady(memory, belief, assignment)
+        stay = 0.0 if steady else settings.better_while_turning
         reason: PlanReason = changed or "leader_elsewhere"
-        return _plan_again(memory, belief, assignment, planner, reason=reason, stay=stay)
+        if news or not steady:
+            return _plan_again(memory, belief, assignment, planner, reason=reason, stay=stay)
+        return _plan_if_sooner(memory, committed, belief, assignment, planner, reason)
     if _is_overdue(memory, belief, assignment):
         return _plan_again(memory, belief, assignment, planner, reason="leader_elsewhere")
     memory, events = announce_pending(memory, belief, assignment)
@@ -180,6 +182,34 @@ def _stay_or_change(
     if isinstance(found, NotBetter):
         return memory, events
     return fly_proposal(memory, belief, assignment, found, "better_plan", events)
+
+
+def _plan_if_sooner(
+    memory: Memory,
+    committed: Committed,
+    belief: Belief,
+    assignment: Assignment,
+    planner: Planner,
+    reason: PlanReason,
+) -> tuple[Memory, list[Event]]:
+    """Another path, where the leader is not as expected, if it joins sooner than the one flown.
+
+    Near the slot a new path may be a full circle, where a little more or less speed does as well.
+    """
+    until = max(committed.due, belief.t) + BRAKES_FOR
+    ahead = forecast(belief, assignment, memory.progress, committed.course, until=until)
+    least, _ = ahead.least(belief.t)
+    if not ahead.joins or least < assignment.kept_separation:
+        return _plan_again(memory, belief, assignment, planner, reason=reason)
+    found = propose(belief, assignment, committed, planner)
+    memory, events = count_refusal(memory._replace(asked=belief.t), found)
+    margin = change_margin(committed, belief.t, assignment)
+    if isinstance(found, Proposal):
+        other = found.committed.forecast
+        if other.joins and other.join_time < ahead.join_time - margin:
+            return fly_proposal(memory, belief, assignment, found, reason, events)
+    kept = committed._replace(forecast=ahead, accepted=slot_mismatch(belief, committed))
+    return memory._replace(committed=kept, forecast=ahead), events
 
 
 def _slot_slack(belief: Belief, committed: Committed) -> Metre:

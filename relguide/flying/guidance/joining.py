@@ -15,11 +15,13 @@ def promise_anew(
 ) -> tuple[Memory, list[Event]]:
     """Say when it joins, if that is no longer what was said and the leader has settled.
 
-    While a path is committed to, new plans say so. In capture there is none: the path is the
-    leader's own.
+    A new plan says so itself. But the same path may join at another time, since the leader flies
+    otherwise; and in capture the path is the leader's own.
     """
     settings, ahead, last = assignment.settings, memory.forecast, memory.announced
-    if memory.mode != "capture" or ahead is None or last is None or not ahead.joins:
+    if memory.mode not in ("converge", "capture") or memory.pending is not None:
+        return memory, []
+    if ahead is None or last is None or not ahead.joins:
         return memory, []
     later, left = ahead.join_time - last.joins, ahead.join_time - belief.t
     if abs(later) <= max(settings.shown_time, settings.shown_share * left):

@@ -12,7 +12,7 @@ from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import Body, Limits
 from relguide.kernels.flight.program import ROLLED_OUT, STRAIGHT, TURN, roll_lead
 from relguide.planning.limits import MAX_PIECES
-from relguide.planning.situation import FlyStraight, IntentPiece, TurnTo
+from relguide.planning.situation import ROUNDED, FlyStraight, IntentPiece, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG, Radian, RadianPerSecond, Second
 
@@ -20,8 +20,6 @@ TurnChoice = Literal["left", "right", "shorter"]
 """Which way round to turn to a heading."""
 ROLLED_IN: Radian = 2.0 * DEG
 """A turn that lacks less bank than this is being flown [rad]."""
-NO_TURN: Radian = 1e-9
-"""A turn that misses a full one by less is rounding of none at all [rad]."""
 
 
 class Program(NamedTuple):
@@ -63,7 +61,7 @@ def program_of(
                 rows.append((STRAIGHT, t, 0.0))
             case TurnTo(heading=to, turn=turn, bank=bank):
                 angle = wrap(-turn * (to - now))
-                angle = 0.0 if angle > 2.0 * pi - NO_TURN else angle
+                angle = 0.0 if angle > 2.0 * pi - ROUNDED else angle
                 rate = turn_rate(tas, bank)
                 match flown[-2:]:
                     case [TurnTo() as before, FlyStraight(duration=pause)] if (

@@ -33,14 +33,16 @@ def most_acceleration(limits: Limits, tas: float, square: float) -> float:
         square: n².
     """
     thrust = limits.climb_0 + tas * (limits.climb_1 + tas * limits.climb_2)
-    return thrust - limits.induced * square / (tas * tas)
+    inverse = 1.0 / tas
+    return thrust - limits.induced * square * inverse * inverse
 
 
 @njit(cache=True, nogil=True)
 def idle_deceleration(limits: Limits, tas: float, square: float) -> float:
     """At idle, without speed brakes [m/s²], > 0; arguments as above."""
     thrust = limits.idle_0 + tas * (limits.idle_1 + tas * limits.idle_2)
-    return limits.braking * (limits.induced * square / (tas * tas) - thrust)
+    inverse = 1.0 / tas
+    return limits.braking * (limits.induced * square * inverse * inverse - thrust)
 
 
 @njit(cache=True, nogil=True)

@@ -1,12 +1,12 @@
 """One step of an aircraft: roll mode, coordinated turn, speed, drift with the wind."""
 
-from math import exp, sqrt, tan
+from math import exp, tan
 
 from numba import njit
 
 from relguide.kernels.base.motion import advance
 from relguide.kernels.flight.autopilot import aileron
-from relguide.kernels.flight.energy import full_deceleration, most_acceleration
+from relguide.kernels.flight.energy import full_deceleration, least_tas, most_acceleration
 from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits
 from relguide.units import G0
 
@@ -34,11 +34,15 @@ def lateral_step(body: Body, control: Control, limits: Limits, wind: Drift, dt: 
     phi_end = phi + wanted * dt + (p - wanted) * limits.roll_time * (1.0 - decay)
     side = tan(0.5 * (phi + phi_end))
     square = 1.0 + side * side
-    asked = min(max(control.tas, limits.min_tas * sqrt(sqrt(square))), limits.max_tas)
-    gain = max((asked - v) / limits.speed_time, -full_deceleration(limits, v, square))
+    asked = control.tas
+    if asked < limits.min_tas * square:  # n² ≥ √n: the roots are seldom needed
+        asked = max(asked, least_tas(limits, square))
+    gain = (min(asked, limits.max_tas) - v) / limits.speed_time
+    if gain < 0.0:
+        gain = max(gain, -full_deceleration(limits, v, square))
     gain = min(gain, most_acceleration(limits, v, square))
-    v_end = v + dt * (max(gain, 0.0) if v < limits.min_tas else gain)
-    v_mean = 0.5 * (v + v_end)
-    rate = G0 / v_mean * side
+    v_end = max(v + dt * gain, min(v, limits.min_tas))
+    v_mean, inverse = 0.5 * (v + v_end), 1.0 / v
+    rate = G0 * side * inverse * (2.0 - v_mean * inverse)  # 1/V̄ from 1/V, which drag needs as well
     x, y, heading = advance(body.x, body.y, body.heading, v_mean, rate, dt)
     return Body(x + wind.east * dt, y + wind.north * dt, heading, phi_end, p_end, v_end, integral)

@@ -7,6 +7,7 @@ from typing import Any, get_origin
 
 import orjson
 
+from relguide.contract.geojson import line_geometry
 from relguide.contract.recorder import FORMAT
 from relguide.contract.wire import wire_fields
 from relguide.flying.aircraft_documents import AircraftSample, GuidanceSample
@@ -94,18 +95,11 @@ def as_geojson(plane: LocalPlane, chunks: Iterable[Lines]) -> bytes:
             "type": "Feature",
             "id": ident,
             "properties": {"ident": ident, "t_s": track["times"]},
-            "geometry": _line(track["points"]),
+            "geometry": line_geometry(track["points"]),
         }
         for ident, track in tracks.items()
     ]
     return orjson.dumps({"type": "FeatureCollection", "features": features})
-
-
-def _line(points: list[list[float]]) -> dict[str, Any]:
-    # a line has two points or more
-    if len(points) == 1:
-        return {"type": "Point", "coordinates": points[0]}
-    return {"type": "LineString", "coordinates": points}
 
 
 def _rows(lines: Lines) -> Iterator[dict[str, Any]]:

@@ -2,6 +2,7 @@
 
 import json
 from math import atan2, hypot, pi
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -20,6 +21,8 @@ from relguide.planning.frames import LocalPlane
 from relguide.planning.plan import Plan
 from relguide.units import DEG
 from tests.bodies import BODY, change, on_earth
+
+FIELD = Path(__file__).parents[2] / "golden" / "field"
 
 
 def problem_of(body: Any) -> tuple[str, str]:
@@ -259,3 +262,26 @@ def test_both_aircraft_are_placed_alike() -> None:
 
 def test_both_ways_at_once_are_refused() -> None:
     assert problem_of(change("pursuer.lat_deg", 1.0))[0] == "pursuer.lon_deg"
+
+
+def test_a_byte_order_mark_before_json_is_passed_over() -> None:
+    text = json.dumps(BODY)
+    known = situation_from_json(text)
+    assert situation_from_json(b"\xef\xbb\xbf" + text.encode()) == known
+    assert situation_from_json("\ufeff" + text) == known
+
+
+def test_a_heading_kept_as_a_32_bit_number_is_the_heading_turned_to() -> None:
+    """`left to 90.1` from 90.09999847 is no full circle."""
+    text = (FIELD / "15-float32-heading.json").read_bytes()
+    straight = json.loads(text)
+    straight["leader"]["intent"] = []
+    answers = [plan(situation_from_json(body)[0]) for body in (text, straight)]
+    first, second = answers
+    assert isinstance(first, Plan)
+    assert isinstance(second, Plan)
+    assert first.time_to_converge == pytest.approx(second.time_to_converge, abs=1e-3)
+
+
+def test_a_file_with_a_byte_order_mark_is_read() -> None:
+    assert isinstance(plan(situation_from_json((FIELD / "14-bom.json").read_bytes())[0]), Plan)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from relguide.contract.answers import answer
 from relguide.contract.bodies import situation_from_json
+from relguide.contract.geojson import line_geometry
 from relguide.contract.refusal import ContractError
 from relguide.planning.frames import LocalPlane
 from relguide.planning.plan import plan
@@ -130,3 +131,16 @@ def test_no_plan_has_no_features() -> None:
     given = answer(situation, anchor, plan, form="geojson")
     assert (given["type"], given["features"]) == ("FeatureCollection", [])
     assert given["status"] == "no_plan"
+
+
+def test_a_line_keeps_what_else_its_points_have_where_it_is_cut() -> None:
+    places = [[179.0, 50.0, 1000.0], [-179.0, 52.0, 2000.0], [-178.0, 52.0, 2000.0]]
+    assert line_geometry(places) == {
+        "type": "MultiLineString",
+        "coordinates": [
+            [[179.0, 50.0, 1000.0], [180.0, 51.0, 1500.0]],
+            [[-180.0, 51.0, 1500.0], *places[1:]],
+        ],
+    }
+    assert line_geometry(places[1:]) == {"type": "LineString", "coordinates": places[1:]}
+    assert line_geometry(places[:1]) == {"type": "Point", "coordinates": places[0]}

@@ -47,9 +47,15 @@ def samples(documents: Iterable[Document]) -> list[Sample]:
     return [document for document in documents if isinstance(document, Sample)]
 
 
-@pytest.mark.parametrize("deceleration", [0.25, 0.35])
-def test_weak_brakes_are_found_out_before_d_min_is_lost(deceleration: float) -> None:
-    weak = world(max_deceleration=deceleration, idle_deceleration=deceleration)
+@pytest.mark.parametrize("share", [0.4, 0.5])
+def test_weak_brakes_are_found_out_before_d_min_is_lost(share: float) -> None:
+    """Without speed brakes and with so little of its drag: 0.2 m/s², 0.27 m/s²."""
+    kind = world_of(FAST).aircraft[0].airframe
+    weak = world(
+        zero_lift_drag=share * kind.zero_lift_drag,
+        induced_drag=share * kind.induced_drag,
+        speed_brake_drag=0.0,
+    )
     *_, end = flown(weak)
     assert isinstance(end, FlightEnded)
     (result,) = end.results
@@ -58,7 +64,7 @@ def test_weak_brakes_are_found_out_before_d_min_is_lost(deceleration: float) -> 
     *_, unlearned = without_learning(weak)
     assert isinstance(unlearned, FlightEnded)
     assert unlearned.results[0].least_separation < result.least_separation
-    assert deceleration > 0.25 or unlearned.results[0].losses
+    assert share > 0.4 or unlearned.results[0].losses
 
 
 def wobbling(amplitude: float, period: float = 17.0) -> list[Document]:
@@ -107,7 +113,7 @@ def test_what_was_learnt_is_forgotten_again() -> None:
         {},
         {"speed_time_constant": 6.5},
         {"speed_time_constant": 3.5},
-        {"max_deceleration": 1.3, "idle_deceleration": 0.75},
+        {"speed_brake_drag": 0.03, "zero_lift_drag": 0.024},
     ],
     ids=["as believed", "slower autothrust", "quicker autothrust", "stronger brakes"],
 )

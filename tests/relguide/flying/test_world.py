@@ -9,11 +9,12 @@ import pytest
 from relguide.flying.air import Air
 from relguide.flying.airframe import airframe
 from relguide.flying.documents import FlightEnded, FlightStarted, Sample, Unable
-from relguide.flying.fleet import DECLARED_DECELERATION, EDGE, OFF_HEADING, OFF_INTENT, Fleet
+from relguide.flying.fleet import EDGE, OFF_HEADING, OFF_INTENT, Fleet, limits_of
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
 from relguide.flying.simulation import simulate
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, Recorded, World
+from relguide.kernels.flight.energy import most_acceleration
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
 from relguide.planning.limits import POSITION, TAS
 from relguide.planning.plan import plan
@@ -34,11 +35,11 @@ TURNING = Declared(
 
 def aircraft(
     ident: str, x: float = 0.0, y: float = 0.0, *, heading: float = 90.0, tas: float = 200.0,
-    pilot: Pilot | None = None,
+    pilot: Pilot | None = None, weight: float = 0.0,
 ) -> Aircraft:  # fmt: skip
     return Aircraft(
         ident=ident, airframe=A306, aircraft_type="A306", x=x, y=y, heading=heading * DEG, tas=tas,
-        altitude=9449.0, max_bank=25.0 * DEG, pilot=pilot or Guided(),
+        altitude=9449.0, max_bank=25.0 * DEG, pilot=pilot or Guided(), weight=weight,
     )  # fmt: skip
 
 
@@ -149,22 +150,40 @@ def test_a_speed_is_taken_up_and_the_intent_kept() -> None:
     rows = fly_seconds(fleet, 200)
     assert rows[-1, 0, 5] == pytest.approx(170.0, abs=0.1)
     assert rows[-1, 0, 2] == pytest.approx(180.0 * DEG, abs=0.2 * DEG)
-    slowest = np.min(np.diff(rows[:, 0, 5]))
-    assert slowest >= -DECLARED_DECELERATION * A306.max_deceleration - 1e-9
+    idle = A306.idle_deceleration(9449.0, 200.0, Air())
+    assert np.min(np.diff(rows[:, 0, 5])) >= -idle - 1e-9
 
 
 def test_a_leader_slows_down_nearly_as_fast_as_it_can_without_brakes() -> None:
     fleet = Fleet(World(aircraft=(aircraft("L", pilot=Declared()),), links=()), 0.05)
     fleet.set_speed(0, 150.0)
     fastest = -np.min(np.diff(fly_seconds(fleet, 60)[:, 0, 5]))
-    assert 0.8 * A306.idle_deceleration < fastest <= A306.idle_deceleration
+    idle = A306.idle_deceleration(9449.0, 200.0, Air())
+    assert 0.95 * idle < fastest <= idle + 1e-9
 
 
 def test_leaders_fly_any_speed_and_pursuers_only_what_their_type_can() -> None:
     fleet = Fleet(World(aircraft=(aircraft("P"), aircraft("L", pilot=Declared())), links=()), 0.05)
     envelope = A306.tas_range(9449.0, Air())
-    assert tuple(fleet.limits[0, 6:]) == (envelope.least, envelope.most)
-    assert tuple(fleet.limits[1, 6:]) == (TAS.low, TAS.high)
+    assert tuple(fleet.limits[0, -2:]) == (envelope.least, envelope.most)
+    assert tuple(fleet.limits[1, -2:]) == (TAS.low, TAS.high)
+
+
+def test_a_heavy_aircraft_speeds_up_and_turns_as_its_weight_lets_it() -> None:
+    light, heavy = (
+        limits_of(aircraft("P", weight=weight), A306, Air()) for weight in (90e3, 140e3)
+    )
+    assert heavy.min_tas == A306.tas_range(9449.0, Air(), 140e3).least > light.min_tas
+    assert heavy.induced == pytest.approx(light.induced * 140.0 / 90.0)
+    assert most_acceleration(heavy, 230.0, 1.0) == pytest.approx(
+        A306.excess_acceleration(9449.0, 230.0, Air(), 140e3), abs=0.01
+    )
+
+
+def test_a_weight_that_its_type_does_not_fly_at_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"weight must lie in 90,000 … 171,700 kg for the A306"):
+        aircraft("P", weight=60e3)
+    assert aircraft("P", weight=171e3).weight == 171e3
 
 
 def test_guidance_may_believe_another_airframe_than_flies() -> None:

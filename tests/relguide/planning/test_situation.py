@@ -3,8 +3,9 @@
 import json
 import re
 from dataclasses import replace
-from math import cos, inf, nan, pi, sin
+from math import cos, inf, nan, pi, remainder, sin
 
+import numpy as np
 import pytest
 from hypothesis import given
 
@@ -23,6 +24,8 @@ from relguide import (
 from relguide.contract.bodies import situation_from_json
 from relguide.flying.orders import LeaderHeading
 from relguide.flying.world import Link
+from relguide.planning.situation import ROUNDED
+from relguide.planning.trajectory import Turn
 from relguide.units import DEG, KT, NM
 from tests.bodies import BODY
 from tests.situations import headings, numbers, situations
@@ -146,13 +149,15 @@ def test_a_turn_ends_on_its_heading_and_both_ways_make_a_full_one(start: float, 
         leader = replace(LEADER, heading=start, intent=(TurnTo(heading=end, turn=turn, bank=0.4),))
         arc = leader.trajectory.segments[0]
         assert isinstance(arc, Arc)
-        assert arc.turn == turn
+        assert arc.turn == turn or arc.turn_angle < ROUNDED
         off = (leader.trajectory.breakpoints()[-1].heading - end) % (2.0 * pi)
         assert min(off, 2.0 * pi - off) < 1e-9
         angles.append(arc.turn_angle)
     apart = (start - end) % (2.0 * pi)
-    if 1e-8 < apart < 2.0 * pi - 1e-8:  # to the present heading is no turn, either way
+    if ROUNDED < apart < 2.0 * pi - ROUNDED:  # to the present heading is no turn, either way
         assert sum(angles) == pytest.approx(2.0 * pi, abs=1e-9)
+    else:
+        assert max(angles) <= ROUNDED * (1.0 + 1e-9)
 
 
 def test_in_the_units_of_aviation_it_is_the_same_situation() -> None:
@@ -209,3 +214,27 @@ def test_what_is_as_always_is_not_printed() -> None:
     assert repr(FlyStraight(duration=1.0)) == "FlyStraight(duration=1.0)"
     leader = Leader(x=0.0, y=0.0, heading=0.0, tas=200.0)
     assert repr(leader) == "Leader(x=0.0, y=0.0, heading=0.0, tas=200.0)"
+
+
+@pytest.mark.parametrize(("turn", "sign"), [(LEFT, -1.0), (RIGHT, 1.0)])
+@pytest.mark.parametrize("degrees", [0.1, 90.1, 199.7, 359.9])
+def test_a_turn_that_misses_a_full_one_by_32_bit_rounding_is_none(
+    turn: Turn, sign: float, degrees: float
+) -> None:
+    """Headings that were kept as 32-bit numbers, in degrees or in radians."""
+    near = (float(np.float32(degrees)) * DEG, float(np.float32(degrees * DEG)))
+    for kept in near:
+        for held, to in ((kept, degrees * DEG), (degrees * DEG, kept)):
+            piece = TurnTo(heading=to, turn=turn, bank=20.0 * DEG)
+            leader = Leader(x=0.0, y=0.0, heading=held, tas=200.0, intent=(piece,))
+            (arc,) = leader.trajectory.segments
+            assert isinstance(arc, Arc)
+            assert arc.turn_angle < 1e-6
+            # and still it ends on the heading that was declared
+            end = leader.trajectory.pose_at(leader.trajectory.duration).heading
+            assert remainder(end - to, 2.0 * pi) == pytest.approx(0.0, abs=1e-9)
+            # a degree more is a turn that was meant
+            meant = replace(piece, heading=to - sign * 1.0 * DEG)
+            (arc,) = replace(leader, intent=(meant,)).trajectory.segments
+            assert isinstance(arc, Arc)
+            assert arc.turn_angle == pytest.approx(359.0 * DEG, abs=1e-6)

@@ -139,3 +139,22 @@ def test_the_last_turn_alone_says_where_an_intent_leads() -> None:
     assert intents.final_headings(np.array([0.5, 0.25])).tolist() == [1.0, 0.25]
     assert intents[np.array([True, False])].counts.tolist() == [2]
     assert len(intents[np.array([False, True])].pieces) == 0
+
+
+def test_turns_that_rounding_makes_full_are_none_here_too() -> None:
+    """Alone, after another turn, and beside a leader whose turn is meant."""
+    near, far = np.float32(90.1) * DEG, 90.1 * DEG
+    turn = TurnTo(heading=far, turn=LEFT, bank=20 * DEG)
+    other = TurnTo(heading=float(near), turn=LEFT, bank=20 * DEG)
+    leader = replace(BEHIND.leader, heading=float(near), intent=(turn,))
+    many = [
+        replace(BEHIND, leader=leader),
+        replace(BEHIND, leader=replace(leader, heading=2.0, intent=(turn, other, turn))),
+        BEHIND,
+    ]
+    straight = replace(BEHIND, leader=replace(leader, intent=()))
+    found = check_against_plan(many)
+    assert found.decided[0]
+    answer = plan(straight)
+    assert isinstance(answer, Plan)
+    assert found.time_to_converge[0] == pytest.approx(answer.time_to_converge, abs=1e-2)

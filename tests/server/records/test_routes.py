@@ -193,6 +193,11 @@ def test_exports_hold_every_sample(client: TestClient, tmp_path: Path) -> None:
     assert [len(f["geometry"]["coordinates"]) for f in tracks["features"]] == [31, 31]
     leader = tracks["features"][1]["geometry"]["coordinates"][0]
     assert leader[:2] == pytest.approx([2.0, 48.0])
+    cut = client.get(f"{path}?format=geojson&lat_deg=48&lon_deg=179.99").json()["features"][1]
+    assert cut["geometry"]["type"] == "MultiLineString"
+    before, after = cut["geometry"]["coordinates"]
+    assert (before[-1][0], after[0][0]) == (180.0, -180.0)
+    assert before[-1][1:] == after[0][1:]
 
 
 def test_without_records_all_else_works_and_says_so() -> None:

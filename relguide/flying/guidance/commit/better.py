@@ -20,14 +20,14 @@ def may_be_improved(committed: Committed, t: Second, assignment: Assignment) -> 
     """Whether any path could be faster than the committed one by the margin, by what is proved."""
     plan = committed.plan
     bound = plan.optimality.lower_bound
-    return plan.time_to_converge - bound > _margin(committed, t, assignment)
+    return plan.time_to_converge - bound > change_margin(committed, t, assignment)
 
 
 def better(
     belief: Belief, assignment: Assignment, committed: Committed, planner: Planner
 ) -> Proposal | NotBetter:
     """A path that is faster than the committed one by a margin, if there is one."""
-    left, margin = committed.due - belief.t, _margin(committed, belief.t, assignment)
+    left, margin = committed.due - belief.t, change_margin(committed, belief.t, assignment)
     lead = lead_in(belief, assignment, committed)
     limit = assignment.buffered_separation
     if lead.separation < limit:
@@ -50,7 +50,7 @@ def better(
     )
 
 
-def _margin(committed: Committed, t: Second, assignment: Assignment) -> Second:
+def change_margin(committed: Committed, t: Second, assignment: Assignment) -> Second:
     """By how much another path must be faster at flight time t [s]."""
     settings = assignment.settings
     return max(settings.better, settings.better_share * (committed.due - t))

@@ -32,6 +32,8 @@ class Committed(NamedTuple):
     """How much of it has been flown [m]."""
     forecast: Forecast
     """The closed loop flown ahead when it was committed, or looked at anew since."""
+    accepted: Metre = 0.0
+    """How far off the slot may be, by what the leader did since: no other path joins sooner [m]."""
 
     @property
     def due(self) -> Second:

@@ -190,7 +190,7 @@ def follow(
     flown, led, _, _ = fly_ahead(
         Progress(FOLLOW, -d - 200.0, 0.0, 0.0), own, LIMITS, NO_COURSE, track.marks, leader,
         limits_of(max_bank=30.0 * DEG), program, 0, 0.0, 200.0, 1,
-        Task(240.0, d, d, spacing, 8_000.0), DEFAULT.gate, GAINS, wind, 0.0, 450, 1_000, 4,
+        Task(240.0, d, d, spacing, 8_000.0), DEFAULT.gate, GAINS, wind, 0.0, 600, 1_000, 4,
     )  # fmt: skip
     for t, row in enumerate(led[1:], 1):
         track.add(Body(*row), wind, float(t))

@@ -9,6 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
+from relguide.flying.air import STANDARD_AIR
+from relguide.flying.envelope import FL310
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.autopilot import (
@@ -20,6 +22,7 @@ from relguide.kernels.flight.autopilot import (
     ROLL_KP,
     aileron,
 )
+from relguide.kernels.flight.energy import full_deceleration, least_tas, most_acceleration
 from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Body, Control, Drift
 from relguide.kernels.flight.lateral import lateral_step
 from relguide.units import DEG, G0
@@ -50,14 +53,17 @@ def bank_rate(bank: float) -> Control:
 def rates(state: np.ndarray, asked: float, tas: float, wind: Drift) -> list[float]:
     """The differential equations; state as `Body` without its integral, by an aileron."""
     _, _, heading, bank, roll_rate, v = state
-    gain = (tas - v) / A306.speed_time_constant
+    n2 = 1.0 / cos(bank) ** 2
+    most = most_acceleration(LIMITS, v, n2)
+    tas = max(tas, least_tas(LIMITS, n2))
+    gain = max((tas - v) / A306.speed_time_constant, -full_deceleration(LIMITS, v, n2))
     return [
         v * sin(heading) + wind.east,
         v * cos(heading) + wind.north,
         G0 / v * tan(bank),
         roll_rate,
         (asked - roll_rate) / A306.roll_time_constant,
-        min(max(gain, -A306.max_deceleration), A306.max_acceleration),
+        min(gain, most),
     ]
 
 
@@ -189,11 +195,42 @@ def test_speed_stays_within_what_the_autothrust_accepts(
     assert min(abs(tas[-1] - least), abs(tas[-1] - most)) < 1e-3
 
 
-def test_acceleration_is_limited_both_ways() -> None:
-    faster = fly(hold(0.0, tas=250.0), level(tas=200.0), 10.0)[-1, 5] - 200.0
-    slower = 240.0 - fly(hold(0.0, tas=120.0), level(), 10.0)[-1, 5]
-    assert faster == pytest.approx(10.0 * A306.max_acceleration)
-    assert slower == pytest.approx(10.0 * A306.max_deceleration)
+def test_acceleration_is_what_thrust_and_drag_give_both_ways() -> None:
+    faster = fly(hold(0.0, tas=250.0), level(tas=200.0), 1.0)[-1, 5] - 200.0
+    slower = 240.0 - fly(hold(0.0, tas=120.0), level(), 1.0)[-1, 5]
+    assert faster == pytest.approx(A306.excess_acceleration(FL310, 200.0, STANDARD_AIR), rel=0.01)
+    brakes = 240.0**2 * LIMITS.brakes
+    idle = A306.idle_deceleration(FL310, 240.0, STANDARD_AIR)
+    assert slower == pytest.approx(idle + brakes, rel=0.01)
+
+
+def test_a_turn_costs_what_the_drag_of_its_lift_is() -> None:
+    straight = fly(hold(0.0, tas=270.0), level(tas=220.0), 10.0)[-1, 5]
+    turning = fly(Control(TURN_RATE, turn_rate(220.0, 25.0 * DEG), 270.0),
+                  level(bank=25.0, tas=220.0), 10.0)[-1, 5]  # fmt: skip
+    more = LIMITS.induced * tan(25.0 * DEG) ** 2 / 220.0**2
+    assert straight - turning == pytest.approx(10.0 * more, rel=0.05)
+    assert 0.03 < more < 0.06
+
+
+def test_an_aircraft_whose_thrust_is_too_little_for_its_bank_loses_speed() -> None:
+    weak = LIMITS._replace(climb_0=LIMITS.climb_0 - 0.25)
+    tas = fly(bank_rate(25.0), level(bank=25.0), 60.0, limits=weak)[:, 5]
+    assert np.all(np.diff(tas) < 0.0)
+    assert 180.0 < tas[-1] < 239.0
+
+
+def test_no_speed_is_lost_below_the_least() -> None:
+    weak = LIMITS._replace(climb_0=LIMITS.climb_0 - 3.0, min_tas=150.0)
+    tas = fly(hold(0.0, tas=200.0), level(tas=160.0), 60.0, limits=weak)[:, 5]
+    assert tas[-1] == pytest.approx(150.0, abs=0.2)
+
+
+def test_the_autothrust_keeps_a_higher_least_speed_in_a_bank() -> None:
+    limits = LIMITS._replace(min_tas=150.0)
+    slow = fly(bank_rate(25.0)._replace(tas=100.0), level(bank=25.0, tas=200.0), 120.0,
+               limits=limits)[-1]  # fmt: skip
+    assert slow[5] == pytest.approx(150.0 / cos(slow[3]) ** 0.5, abs=0.1)
 
 
 @given(bodies, controls, st.floats(0.01, 0.1))

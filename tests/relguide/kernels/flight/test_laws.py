@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.turn import bank_for_turn_rate, turn_rate
+from relguide.kernels.flight.energy import idle_deceleration, most_acceleration
 from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Control, Drift, Limits
 from relguide.kernels.flight.laws import (
     ALIGNED,
@@ -147,9 +148,11 @@ def flown_spacing(error: float, tas: float, slot_tas: float) -> list[tuple[float
     rows, asked = [], tas
     for k in range(24_000):
         if k % 20 == 0:
-            asked = closing_tas(error, slot_tas, 240.0, LIMITS.acceleration, GAINS)
+            most = most_acceleration(LIMITS, tas, 1.0)
+            asked = closing_tas(error, slot_tas, 240.0, most, GAINS)
         change = (asked - tas) / LIMITS.speed_time
-        tas += 0.05 * min(max(change, -A306.idle_deceleration), LIMITS.acceleration)
+        idle = idle_deceleration(LIMITS, tas, 1.0)
+        tas += 0.05 * min(max(change, -idle), most_acceleration(LIMITS, tas, 1.0))
         error -= 0.05 * (tas - slot_tas)
         rows.append((error, tas - slot_tas))
     return rows
