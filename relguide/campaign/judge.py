@@ -121,7 +121,7 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         join_over_plan=joined / planned if joined and planned else None,
         join_over_promise=joined / promised if joined and promised else None,
         optimum_s=optimum,
-        over_optimum_s=None if joined is None or optimum is None else joined - optimum,
+        over_optimum_s=_over_optimum(case, optimum, joined),
         why_not_joined="" if end.joined else _why_not(documents),
         join_over_last_promise=_join_over_last_promise(changed, joined),
         least_share=end.least_separation / situation.min_separation,
@@ -156,6 +156,18 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         if losses and engaged is None and losses[0].t_s < AHEAD
         else None,
     )
+
+
+def _over_optimum(case: Case, optimum: Second | None, joined: Second | None) -> Second | None:
+    """How much later it joined; `None` where it joined before the leader's last turn was over.
+
+    The optimum is to the final leg: there it would be compared with another leg.
+    """
+    leader = case.scenario.situation.leader
+    turned = sum(segment.length for segment in leader.trajectory.segments) / leader.tas
+    if optimum is None or joined is None or joined < turned:
+        return None
+    return joined - optimum
 
 
 def _why_not(documents: Sequence[Document]) -> str:

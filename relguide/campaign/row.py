@@ -72,7 +72,7 @@ class Row:
     optimum_s: float | None = None
     """Of the fastest plan to the final leg, all known; `None` without, or with orders."""
     over_optimum_s: float | None = None
-    """How much later it joined; below 0, where it joined before the leader's last turn."""
+    """How much later it joined; `None` where it joined before the leader's last turn."""
     why_not_joined: str = ""
     join_over_last_promise: float | None = None
     """Over the promise from the plan last announced, and by its promise."""
