@@ -165,8 +165,10 @@ KEYS: Mapping[str, Key] = {
     "roll_lag_factor": Key(FACTOR, _factor("roll_time_constant"), "true over believed"),
     "speed_lag_factor": Key(FACTOR, _factor("speed_time_constant"), "true over believed"),
     "thrust_factor": Key(FACTOR, _factor("thrust_share"), "true over believed"),
-    "drag_factor": Key(FACTOR, _factor("zero_lift_drag", "induced_drag"), "true over believed"),
-    "brakes_factor": Key(FACTOR, _factor("speed_brake_drag"), "true over believed drag of brakes"),
+    "drag_factor": Key(
+        FACTOR, _factor("zero_lift_drag", "induced_drag"), "true over believed, without brakes"
+    ),
+    "speed_brake_factor": Key(FACTOR, _factor("speed_brake_drag"), "true over believed"),
     "gusts_mps": Key(Range(0.0, MAX_GUSTS, "m/s"), _gusts, "σ along and across, Dryden"),
     "nacp": Key(Range(1, 11, "of NACp"), _seen("nacp", round), "category of ADS-B positions"),
     "nacv": Key(Range(1, 4, "of NACv"), _seen("nacv", round), "category of ADS-B velocities"),
