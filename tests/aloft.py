@@ -63,6 +63,11 @@ def hold(heading: float, tas: float = 240.0) -> Control:
     return Control(HOLD_HEADING, heading * DEG, tas)
 
 
+def steady(wind: Drift, count: int = 1, steps: int = round(1.0 / STEP)) -> FloatArray:
+    """One wind at each step of a second, for so many aircraft. shape (count, steps + 1, 2)"""
+    return np.tile(np.array(wind), (count, steps + 1, 1))
+
+
 def fly(
     asked: Law | Control,
     begun: Body,
@@ -82,7 +87,8 @@ def fly(
         trace = np.zeros((1, steps + 1, 7))
         fly_second(
             states, np.array([limits]), pilots, np.array([control]), np.zeros((1, 0, 3)), idle,
-            idle.copy(), np.zeros(1), wind, float(second), step, trace, np.zeros((1, 4)),
+            idle.copy(), np.zeros(1), steady(wind, 1, steps), float(second), step, trace,
+            np.zeros((1, 4)),
         )  # fmt: skip
         rows.append(trace[0, 1:])
     return np.vstack(rows)
@@ -105,7 +111,7 @@ def tracking(
     """The law that tracks a path through the air mass, from length s on, at one speed."""
     progress = Progress(CONVERGE, s - tas, 0.0, 0.0)
     task = Task(tas, 10_000.0, 10_000.0, 0.0, 0.0)
-    course = Course(path, 0.0, 1e6, tas)
+    course = Course(path, 0.0, 1e6, tas, wind)
 
     def law(t: Second, body: Body) -> Control:
         nonlocal progress

@@ -9,6 +9,7 @@ from relguide.flying.air import Air
 from relguide.flying.airframe import airframe
 from relguide.flying.belief import ROOM, SPARE, Belief, FlownTrack, intent_after
 from relguide.flying.fleet import Fleet
+from relguide.flying.pursuit import begin_pursuit
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, World
 from relguide.kernels.flight.flight_records import Drift
 from relguide.kernels.flight.laws import ground_track
@@ -49,10 +50,10 @@ def leader_after(
 ) -> Belief:
     """What is known after some seconds."""
     fleet = Fleet(world(pilot=pilot, believed_air=air), 0.05)
-    track = fleet.begin_track(fleet.world.links[0])
+    track = begin_pursuit(fleet.world, fleet, fleet.world.links[0]).track
     for second in range(seconds):
         fleet.fly_second(float(second))
-        track.add(fleet.body(1), fleet.drift, float(second + 1))
+        track.add(fleet.body(1), fleet.drift(1), float(second + 1))
     return fleet.belief(0, 1, track, float(seconds), known)
 
 

@@ -22,7 +22,7 @@ from relguide.kernels.flight.second import (
     least_between,
 )
 from relguide.units import DEG
-from tests.aloft import LIMITS, STEP, STILL, fly, hold, level
+from tests.aloft import LIMITS, STEP, STILL, fly, hold, level, steady
 
 WIND = Drift(15.0, -20.0)
 STEPS = round(1.0 / STEP)
@@ -45,8 +45,8 @@ def test_three_aircraft_fly_as_each_alone() -> None:
         fly_second(
             states, np.array([LIMITS] * 3), np.array([GUIDED, PROGRAMMED, RECORDED]),
             np.array([turning(-15.0), hold(0.0, tas=200.0), hold(0.0)]), programs,
-            np.array([0, 1, 0]), cursors, np.array([0.0, 90.0 * DEG, 0.0]), WIND, float(second),
-            STEP, trace, tallies,
+            np.array([0, 1, 0]), cursors, np.array([0.0, 90.0 * DEG, 0.0]), steady(WIND, 3),
+            float(second), STEP, trace, tallies,
         )  # fmt: skip
     assert tuple(states[0]) == tuple(fly(turning(-15.0), begun[0], 3.0, wind=WIND)[-1])
     alone = Control(TURN_RATE, turn_rate(200.0, 20.0 * DEG), 200.0)
@@ -62,8 +62,8 @@ def flown_tallies(begun: Body, banks: tuple[float, ...]) -> FloatArray:
         control = turning(banks[second // 30])
         fly_second(
             states, np.array([LIMITS]), np.full(1, GUIDED), np.array([control]),
-            np.zeros((1, 0, 3)), np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1), STILL,
-            float(second), STEP, np.zeros((1, STEPS + 1, 7)), tallies,
+            np.zeros((1, 0, 3)), np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1),
+            steady(STILL), float(second), STEP, np.zeros((1, STEPS + 1, 7)), tallies,
         )  # fmt: skip
     return tallies[0]
 
