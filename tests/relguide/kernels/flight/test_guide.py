@@ -13,6 +13,7 @@ from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Body, Control, Drift
 from relguide.kernels.flight.guide import (
+    BEND_BANK,
     CAPTURE,
     CONVERGE,
     ESCAPE,
