@@ -221,7 +221,7 @@ def _slot_slack(belief: Belief, committed: Committed) -> Metre:
 def _is_overdue(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
     """Whether the path has been flown to its end and does not join."""
     committed, t = memory.committed, belief.t
-    if committed is None or t < committed.due + assignment.settings.ask_every:
+    if committed is None or t < committed.due + assignment.settings.overdue:
         return False
     ahead = committed.forecast if memory.forecast is None else memory.forecast
     return not ahead.joins
