@@ -1,6 +1,7 @@
 """Short ways to fly the flight kernels in tests: one aircraft, asked something once a second."""
 
 from collections.abc import Callable
+from math import inf
 
 import numpy as np
 
@@ -111,7 +112,7 @@ def tracking(
     """The law that tracks a path through the air mass, from length s on, at one speed."""
     progress = Progress(CONVERGE, s - tas, 0.0, 0.0)
     task = Task(tas, 10_000.0, 10_000.0, 0.0, 0.0)
-    course = Course(path, 0.0, 1e6, tas, wind)
+    course = Course(path, 0.0, 1e6, tas, wind, inf)
 
     def law(t: Second, body: Body) -> Control:
         nonlocal progress

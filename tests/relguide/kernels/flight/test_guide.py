@@ -1,6 +1,6 @@
 """One act of guidance: which mode it is in, what it tracks, and when it has joined."""
 
-from math import cos, hypot, pi, sin, tan
+from math import cos, hypot, inf, pi, sin, tan
 
 import numpy as np
 import pytest
@@ -156,7 +156,7 @@ def course(
     """A path from (0, −40 km) north, in pieces of length [m] and curvature [rad/m]."""
     bends = np.array(pieces).reshape(-1, 2)
     path = lay_path(0.0, -40_000.0, 0.0, bends, 240.0, 0.0, LIMITS.max_roll_rate)
-    return Course(path, 0.0, float(path[-1, 0]) + 5_000.0, slot_tas, wind), path
+    return Course(path, 0.0, float(path[-1, 0]) + 5_000.0, slot_tas, wind, inf), path
 
 
 TURNING = ((5_000.0, 0.0), (8_000.0, 1.0 / 14_000.0))
