@@ -29,6 +29,9 @@ FIGURES = {
     "track_nm",
     "simulated_s",
     "losses",
+    "over_optimum_s",
+    "along_error_m",
+    "across_error_m",
     "wall_s",
 }
 
