@@ -70,6 +70,13 @@ class SimulationAnswer(Strict):
     """Flown until joined."""
     simulated_s: float
     """Time flown."""
+    over_optimum_s: float | None
+    """By how much it joined later than the fastest plan from its start would; null where there is
+    none, or the leader is recorded."""
+    along_error_m: float
+    """Largest error of the spacing along the route while it followed."""
+    across_error_m: float
+    """Largest distance beside the route while it followed."""
     wall_s: float
     """Time it took."""
     losses: list[SimulationLoss]

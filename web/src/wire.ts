@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-10cc1758dd06";
+export const PROTOCOL = "relguide-4eaa8de219a0";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -484,6 +484,8 @@ export interface GuidanceSample {
   leader_age_s: number;
   /** How far the crew has engaged it. */
   engagement: Engagement;
+  /** What guidance keeps beside d_min for what it is not certain of; 0 where all is exact. */
+  margin_m: number;
 }
 
 /** Guidance asks the autopilot to hold a heading. */
