@@ -5,12 +5,12 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from tools.campaign.recordings import all_tracks
 
 from relguide.flying.recordings.together import placed_on, together
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.frames import LocalPlane
 from relguide.units import DEG, FT, NM, Metre, Radian, Second
-from tools.campaign.recordings import all_tracks
 
 PARIS = LocalPlane(48.87, 2.45)
 LOW: Metre = 1500.0 * FT

@@ -77,12 +77,13 @@ def fly(
     states, rows = np.array([begun], dtype=float), [np.array([begun], dtype=float)]
     idle = np.zeros(1, dtype=np.int64)
     pilots = np.full(1, GUIDED, dtype=np.int64)
+    winds = np.tile(np.array(wind), (1, steps + 1, 1))
     for second in range(round(duration)):
         control = asked(float(second), Body(*states[0])) if callable(asked) else asked
         trace = np.zeros((1, steps + 1, 7))
         fly_second(
             states, np.array([limits]), pilots, np.array([control]), np.zeros((1, 0, 3)), idle,
-            idle.copy(), np.zeros(1), wind, float(second), step, trace, np.zeros((1, 4)),
+            idle.copy(), np.zeros(1), winds, float(second), step, trace, np.zeros((1, 4)),
         )  # fmt: skip
         rows.append(trace[0, 1:])
     return np.vstack(rows)
@@ -105,7 +106,7 @@ def tracking(
     """The law that tracks a path through the air mass, from length s on, at one speed."""
     progress = Progress(CONVERGE, s - tas, 0.0, 0.0)
     task = Task(tas, 10_000.0, 10_000.0, 0.0, 0.0)
-    course = Course(path, 0.0, 1e6, tas)
+    course = Course(path, 0.0, 1e6, tas, wind)
 
     def law(t: Second, body: Body) -> Control:
         nonlocal progress

@@ -67,10 +67,9 @@ def _kept_separation(
 def _limits(max_bank: Radian) -> Limits:
     """Of an A300 that keeps its speed."""
     kind = airframe("A306")
-    return Limits(
-        max_bank, kind.max_roll_rate, kind.roll_time_constant, kind.speed_time_constant,
-        kind.max_acceleration, kind.max_deceleration, 0.0, inf,
-    )  # fmt: skip
+    rolls = max_bank, kind.max_roll_rate, kind.roll_time_constant, kind.speed_time_constant
+    thrust = 1.0, 0.0, 0.0
+    return Limits(*rolls, *thrust, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, inf)
 
 
 def _steps() -> int:

@@ -148,11 +148,10 @@ KEYS: Mapping[str, Key] = {
     "roll_rate_factor": Key(FACTOR, _factor("max_roll_rate"), "true over believed"),
     "roll_lag_factor": Key(FACTOR, _factor("roll_time_constant"), "true over believed"),
     "speed_lag_factor": Key(FACTOR, _factor("speed_time_constant"), "true over believed"),
-    "acceleration_factor": Key(FACTOR, _factor("max_acceleration"), "true over believed"),
-    "deceleration_factor": Key(
-        FACTOR,
-        _factor("idle_deceleration", "max_deceleration"),
-        "true over believed, at idle thrust as with brakes",
+    "thrust_factor": Key(FACTOR, _factor("thrust_share"), "true over believed"),
+    "drag_factor": Key(
+        FACTOR, _factor("zero_lift_drag", "induced_drag"), "true over believed, without brakes"
     ),
+    "speed_brake_factor": Key(FACTOR, _factor("speed_brake_drag"), "true over believed"),
 }
 """By name, each with its unit."""

@@ -13,8 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from relguide.flying.leader_track import LeaderTrack
-from relguide.flying.surveillance import Receiver, Report
-from relguide.flying.world import World
+from relguide.flying.surveillance import Receiver, Report, Surveillance
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.flight_records import Body, Drift
 from relguide.kernels.flight.wind_estimate import (
@@ -73,19 +72,24 @@ class Perceived(NamedTuple):
 class Perception:
     """What one pursuer perceives: one of the few things here that change."""
 
-    def __init__(self, world: World, pursuer: int, rng: np.random.Generator) -> None:
+    def __init__(
+        self,
+        surveillance: Surveillance,
+        wind: Drift,
+        gusts: MetrePerSecond,
+        rng: np.random.Generator,
+    ) -> None:
         """Before anything is seen.
 
         Args:
-            world: how well others are seen, and what is believed of the air.
-            pursuer: which of the aircraft.
+            surveillance: how well the leader is seen.
+            wind: what is believed of it.
+            gusts: how strong they are [m/s].
             rng: of noise and losses.
         """
-        own, air = world.aircraft[pursuer], world.believed_air or world.air
-        wind = air.wind_at(own.x, own.y, own.altitude, 0.0)
-        self._rng, self._gusts = rng, world.air.gusts
-        self._receiver = Receiver(world.surveillance, rng)
-        self._wind, self._variance = Drift(wind.east, wind.north), UNKNOWN_VARIANCE
+        self._rng, self._gusts = rng, gusts
+        self._receiver = Receiver(surveillance, rng)
+        self._wind, self._variance = wind, UNKNOWN_VARIANCE
         self._track: LeaderTrack | None = None
 
     def listen(self, leader: Body, moves: Drift, own_wind: Drift) -> None:

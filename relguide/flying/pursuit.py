@@ -15,6 +15,7 @@ from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
 from relguide.flying.logbook import PairNames
 from relguide.flying.perception import Perceived, Perception
 from relguide.flying.world import Link, World
+from relguide.kernels.flight.flight_records import Drift
 from relguide.units import Metre, MetrePerSecond, Radian, Second
 
 MARGIN_STEP: Metre = 25.0
@@ -145,7 +146,11 @@ def begin_pursuit(
     perception, seen = None, None
     leader, drift = fleet.body(j), fleet.drift(j)
     if world.perceives:
-        perception = Perception(world, i, np.random.default_rng([seed, i, j]))
+        own, air = world.aircraft[i], world.believed_air or world.air
+        wind = air.wind_at(own.x, own.y, own.altitude, 0.0)
+        rng = np.random.default_rng([seed, i, j])
+        believed = Drift(wind.east, wind.north)
+        perception = Perception(world.surveillance, believed, world.air.gusts, rng)
         perception.listen(leader, drift, fleet.drift(i))
         seen = fleet.see(perception, i, j, 0.0)
         leader, drift = seen.leader, seen.wind

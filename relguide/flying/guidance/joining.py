@@ -47,19 +47,25 @@ def judge_spacing(
         done: how the pursuer stands to the slot.
         outlook: gives the least separation ahead, which every alert tells.
     """
-    t, out = belief.t, memory.out_of_gate
-    if memory.mode == "follow" and not done.joined:
+    t, out, settings = belief.t, memory.out_of_gate, assignment.settings
+    along = done.to_slot + assignment.aim - assignment.slot_distance
+    is_out = (
+        abs(along) > settings.joined_along + belief.place_slack
+        or abs(done.right) > settings.joined_across + belief.place_slack
+    )
+    if memory.mode == "follow" and is_out:
         since = t if out.since == LONG_AGO else out.since
         memory = memory._replace(out_of_gate=out._replace(since=since))
-        if out.said or t - since < assignment.settings.out_for:
+        if out.said or t - since < settings.out_for:
             return memory, []
-        where = "too far behind" if done.to_slot > 0.0 else "too near"
-        text = f"Spacing: {distance(abs(done.to_slot))} {where}, {distance(abs(done.right))} aside."
+        where = "too far behind" if along > 0.0 else "too near"
+        text = f"Spacing: {distance(abs(along))} {where}, {distance(abs(done.right))} aside."
     else:
         memory = memory._replace(out_of_gate=out._replace(since=LONG_AGO))
         if not out.said:
             return memory, []
-        text = "The spacing is kept again." if done.joined else "The leader is no longer followed."
+        follows = memory.mode == "follow"
+        text = "The spacing is kept again." if follows else "The leader is no longer followed."
     memory = memory._replace(out_of_gate=memory.out_of_gate._replace(said=not out.said))
     said = Alerted(
         subject="spacing",

@@ -58,7 +58,7 @@ VALUES = {
     "slot_beyond_m": 500.0, "spacing_s": 60.0, "start_distance_m": 30_000.0,
     "start_bearing_deg": 90.0, "wind_mps": 12.0, "wind_from_deg": 45.0, "wind_error_mps": 4.0,
     "isa_error_k": -3.0, "roll_rate_factor": 0.8, "roll_lag_factor": 1.2, "speed_lag_factor": 1.1,
-    "acceleration_factor": 0.5, "deceleration_factor": 0.5,
+    "thrust_factor": 0.9, "drag_factor": 0.5, "speed_brake_factor": 0.5,
 }  # fmt: skip
 
 
@@ -92,8 +92,9 @@ def test_each_key_changes_what_it_says(key: str) -> None:
         "roll_rate_factor": true.max_roll_rate / believed.max_roll_rate,
         "roll_lag_factor": true.roll_time_constant / believed.roll_time_constant,
         "speed_lag_factor": true.speed_time_constant / believed.speed_time_constant,
-        "acceleration_factor": true.max_acceleration / believed.max_acceleration,
-        "deceleration_factor": true.idle_deceleration / believed.idle_deceleration,
+        "thrust_factor": true.thrust_share / believed.thrust_share,
+        "drag_factor": true.zero_lift_drag / believed.zero_lift_drag,
+        "speed_brake_factor": true.speed_brake_drag / believed.speed_brake_drag,
     }
     assert found[key] == pytest.approx(VALUES[key])
 

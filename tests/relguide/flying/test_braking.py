@@ -16,6 +16,7 @@ from relguide.flying.flight import world_of
 from relguide.flying.pursuit import begin_pursuit
 from relguide.flying.simulation import simulate
 from relguide.flying.world import World
+from relguide.kernels.flight.energy import full_deceleration
 from relguide.kernels.flight.flight_records import Control
 from tests.relguide.flying.guidance.beliefs import behind
 
@@ -92,19 +93,24 @@ def test_a_wobble_of_the_airspeed_is_no_weak_brake(amplitude: float) -> None:
 
 
 def test_what_was_learnt_is_forgotten_again() -> None:
-    built = world(max_deceleration=0.3, idle_deceleration=0.3)
+    built = world()
     fleet = Fleet(built, 0.05)
     one = begin_pursuit(built, fleet, built.links[0])
     advice = SimpleNamespace(control=Control(0.0, 0.0, 100.0))
     one.advice = advice  # type: ignore[assignment]  # only what is asked of it is looked at
-    for rate, learnt in ((0.3, 0.3), (1.2, one.brakes.full)):
+    for rate, learnt in ((0.4, 0.4), (1.6, None)):
         one.braked, tas = (), 230.0
         for _ in range(15):
             tas -= rate
             fleet.states[0, 5] = tas
             learn_braking(one, fleet)
-        assert fleet.believed_limits[0].deceleration == pytest.approx(learnt, abs=0.01)
-    assert one.assignment.idle_deceleration == one.brakes.idle
+        limits = fleet.believed_limits[0]
+        if learnt:
+            seen = full_deceleration(limits, 230.0 - 10.0 * rate, 1.0)
+            assert seen == pytest.approx(learnt, abs=0.02)
+        else:
+            assert limits.braking == 1.0
+    assert one.assignment.idle_deceleration == one.idle_deceleration
 
 
 @pytest.mark.parametrize(

@@ -153,7 +153,7 @@ def course(*pieces: tuple[float, float], slot_tas: float = V) -> tuple[Course, F
     """A path from (0, −40 km) north, in pieces of length [m] and curvature [rad/m]."""
     bends = np.array(pieces).reshape(-1, 2)
     path = lay_path(0.0, -40_000.0, 0.0, bends, 240.0, 0.0, LIMITS.max_roll_rate)
-    return Course(path, 0.0, float(path[-1, 0]) + 5_000.0, slot_tas), path
+    return Course(path, 0.0, float(path[-1, 0]) + 5_000.0, slot_tas, STILL), path
 
 
 TURNING = ((5_000.0, 0.0), (8_000.0, 1.0 / 14_000.0))

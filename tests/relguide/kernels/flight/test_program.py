@@ -48,7 +48,8 @@ def fly(
         fly_second(
             states, np.array([LIMITS]), np.full(1, PROGRAMMED), np.array([[0.0, 0.0, TAS]]),
             program.rows[np.newaxis], np.full(1, len(pieces)), cursors,
-            np.array([program.held]), STILL, float(second), step, trace, np.zeros((1, 4)),
+            np.array([program.held]), np.zeros((1, steps + 1, 2)), float(second), step, trace,
+            np.zeros((1, 4)),
         )  # fmt: skip
         rows.append(trace[0, 1:])
     return np.vstack(rows), int(cursors[0])

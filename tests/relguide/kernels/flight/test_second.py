@@ -22,7 +22,7 @@ from relguide.kernels.flight.second import (
     least_between,
 )
 from relguide.units import DEG
-from tests.aloft import LIMITS, STEP, STILL, fly, hold, level
+from tests.aloft import LIMITS, STEP, fly, hold, level
 
 WIND = Drift(15.0, -20.0)
 STEPS = round(1.0 / STEP)
@@ -40,12 +40,13 @@ def test_three_aircraft_fly_as_each_alone() -> None:
     states = np.array(begun)
     trace, tallies = np.zeros((3, STEPS + 1, 7)), np.zeros((3, 4))
     cursors = np.zeros(3, dtype=np.int64)
+    winds = np.tile(np.array(WIND), (3, STEPS + 1, 1))
     for second in range(3):
         trace[2] = recording[second * STEPS : (second + 1) * STEPS + 1]
         fly_second(
             states, np.array([LIMITS] * 3), np.array([GUIDED, PROGRAMMED, RECORDED]),
             np.array([turning(-15.0), hold(0.0, tas=200.0), hold(0.0)]), programs,
-            np.array([0, 1, 0]), cursors, np.array([0.0, 90.0 * DEG, 0.0]), WIND, float(second),
+            np.array([0, 1, 0]), cursors, np.array([0.0, 90.0 * DEG, 0.0]), winds, float(second),
             STEP, trace, tallies,
         )  # fmt: skip
     assert tuple(states[0]) == tuple(fly(turning(-15.0), begun[0], 3.0, wind=WIND)[-1])
@@ -57,12 +58,12 @@ def test_three_aircraft_fly_as_each_alone() -> None:
 
 def flown_tallies(begun: Body, banks: tuple[float, ...]) -> FloatArray:
     """Half a minute at each bank."""
-    states, tallies = np.array([begun]), np.zeros((1, 4))
+    states, tallies, still = np.array([begun]), np.zeros((1, 4)), np.zeros((1, STEPS + 1, 2))
     for second in range(30 * len(banks)):
         control = turning(banks[second // 30])
         fly_second(
             states, np.array([LIMITS]), np.full(1, GUIDED), np.array([control]),
-            np.zeros((1, 0, 3)), np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1), STILL,
+            np.zeros((1, 0, 3)), np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1), still,
             float(second), STEP, np.zeros((1, STEPS + 1, 7)), tallies,
         )  # fmt: skip
     return tallies[0]
