@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from matplotlib.axes import Axes
 
-from benchmarks.drawings import BLUE, GREEN, INK, ORANGE, PALE, PURPLE, figure
+from benchmarks.drawings import BLUE, GREEN, ORANGE, PALE, PURPLE, figure
 from benchmarks.options import positive
 from benchmarks.page import DOCS, FOLDER, with_block
 from benchmarks.tables import Cells, markdown, write_table
@@ -184,13 +184,14 @@ def draw(outcomes: Sequence[Outcome], file: Path) -> None:
             flown = [one for one in outcomes if one.way == way and one.joined]
             _line_of(left, flown, [one.join_time for one in flown])
             _line_of(right, flown, [one.swing / DEG for one in flown])
-        left.axline((800.0, 800.0), slope=1.0, color=INK, lw=0.8)
-        left.annotate("joined before the turn", (770.0, 775.0), ha="right", va="top", fontsize=8)
-        left.legend(frameon=False, fontsize=8, loc="lower left")
+        left.annotate(
+            "hollow: joined before the turn", (890.0, 835.0), ha="right", fontsize=8, color=ORANGE
+        )
         for axes in (left, right):
             axes.set_xlabel("the leader turns at [s]")
             axes.set_xlim(0.0, 900.0)
-        right.set_ylim(0.0, None)
+        right.set_ylim(0.0, 290.0)  # the names of the ways stand on top
+        right.legend(frameon=False, fontsize=8, loc="upper left")
 
 
 def _line_of(axes: Axes, flown: Sequence[Outcome], values: Sequence[float]) -> None:

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from relguide.flying.flight import DeclaredLeader, Scenario, world_of
+from relguide.flying.guidances import Guidance
 from relguide.flying.orders import Command
 from relguide.flying.world import World
 from relguide.planning.situation import CALM, Wind
@@ -25,6 +26,7 @@ class Case:
     """What guidance believes of the wind beyond what is true."""
     isa_error: float = 0.0
     """The same of the temperature [K]."""
+    guidance: Guidance = "relguide"
 
     @property
     def leader_as_declared(self) -> bool:
@@ -57,6 +59,8 @@ class Case:
             f"leader = {scenario.leader_ident!r}",
             *(f"at {t:.0f} s: {command!r}" for t, command in self.orders),
         ]
+        if self.guidance != "relguide":
+            lines.append(f"guidance = {self.guidance!r}")
         if self.factors:
             lines.append(f"factors = {dict(self.factors)!r}")
         if self.wind_error != CALM or self.isa_error:

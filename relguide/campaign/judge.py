@@ -70,6 +70,7 @@ def documents_of(case: Case, sample_period: Second = EVERY) -> Iterator[Document
         seed=case.number,
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
+        guidance=case.guidance,
     )
 
 
