@@ -62,6 +62,7 @@ def documents_of(case: Case, sample_period: Second = EVERY) -> Iterator[Document
         seed=case.noise_seed,
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
+        guidance=case.guidance,
     )
 
 
