@@ -29,14 +29,11 @@ class Case:
     """What guidance believes of the wind beyond what is true."""
     isa_error: float = 0.0
     """The same of the temperature [K]."""
-<<<<<<< HEAD
     gusts: MetrePerSecond = 0.0
     """σ along and across [m/s]."""
     surveillance: Surveillance = EXACT
     """How the leader is seen."""
-=======
     guidance: Guidance = "relguide"
->>>>>>> h-baselines
 
     @property
     def leader_as_declared(self) -> bool:

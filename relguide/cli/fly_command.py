@@ -11,12 +11,8 @@ from typing import TYPE_CHECKING
 
 from relguide.cli.output import DONE, FAILED, add_form, for_people, say, write_json
 from relguide.cli.shared_options import add_planner, seconds
-<<<<<<< HEAD
 from relguide.cli.situation_file import open_input, read_flight
-=======
-from relguide.cli.situation_file import open_input, read_situation
 from relguide.flying.guidances import GUIDANCES
->>>>>>> h-baselines
 from relguide.learn.planners import make_planner
 from relguide.planning.inputs import expect_within
 from relguide.planning.limits import SPACING
@@ -37,11 +33,8 @@ EXAMPLES = """
     relguide fly quickstart:SVA127               behind one of the package traffic's
     relguide fly random --seed 7                 a flight drawn from that number
     relguide fly fig_6b --spacing 60             once joined, a minute behind
-<<<<<<< HEAD
     relguide fly fig_6b --gusts 1.5              in light turbulence
-=======
     relguide fly fig_6a --guidance trail         by a baseline, which does not plan
->>>>>>> h-baselines
     relguide fly fig_6b --orders orders.jsonl    the leader does as it is ordered, a line an order:
         {"t_s": 60, "intent_known": false}
         {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
