@@ -39,7 +39,8 @@ def draw_flight(campaign: Campaign, flight: int) -> DrawnFlight:
     kind = DERIVED.get(point.family, Derived(point.family, {}))
     case = draw(kind.base, number, campaign.seed)
     scenario = replace(case.scenario, name=point.family, title=f"{campaign.name} {flight}")
-    case = replace(case, family=point.family, scenario=scenario)
+    noise = int(stream(kind.base, number, campaign.seed, "noise").integers(2**32))
+    case = replace(case, family=point.family, scenario=scenario, noise_seed=noise)
     drawn = {**kind.vary, **campaign.vary}
     values: dict[str, float] = {}
     for name, key in KEYS.items():

@@ -36,7 +36,7 @@ from relguide.flying.documents import (
 from relguide.flying.orders import Command
 from relguide.flying.simulation import simulate
 from relguide.kernels.base.angles import wrap_signed
-from relguide.planning.plan import Plan, plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation, Wind
 from relguide.units import DEG, Metre, Second
 
@@ -67,7 +67,7 @@ def documents_of(case: Case, sample_period: Second = EVERY) -> Iterator[Document
         title=scenario.title,
         commands=_orders(case.orders),
         sample_period=sample_period,
-        seed=case.number,
+        seed=case.noise_seed,
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
     )
@@ -92,7 +92,7 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     assert isinstance(last, FlightEnded)
     (end,) = last.results
     situation = case.scenario.situation
-    optimum = _optimum(case)
+    optimum = end.optimum if end.optimum and case.leader_as_declared else None
     samples = [instant(document) for document in documents if isinstance(document, Sample)]
     changed = [document for document in documents if isinstance(document, PlanChanged)]
     engaged = changed[0] if end.planned_time > 0.0 else None
@@ -121,7 +121,7 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         join_over_plan=joined / planned if joined and planned else None,
         join_over_promise=joined / promised if joined and promised else None,
         optimum_s=optimum,
-        over_optimum_s=None if joined is None or optimum is None else joined - optimum,
+        over_optimum_s=_over_optimum(case, optimum, joined),
         why_not_joined="" if end.joined else _why_not(documents),
         join_over_last_promise=_join_over_last_promise(changed, joined),
         least_share=end.least_separation / situation.min_separation,
@@ -136,6 +136,8 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         if engaged
         else None,
         unplanned_reversals=end.bank_reversals - reversals(turns) if engaged else None,
+        along_error_m=end.along_error,
+        across_error_m=end.across_error,
         swing_deg=end.heading_swing / DEG,
         loops=max(loops, 0),
         lone_loops=lone_circles(
@@ -156,10 +158,16 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     )
 
 
-def _optimum(case: Case) -> Second | None:
-    """What the fastest plan takes that knows all, where the leader flies what it declared."""
-    best = plan(case.scenario.situation) if case.leader_as_declared else None
-    return best.time_to_converge if isinstance(best, Plan) else None
+def _over_optimum(case: Case, optimum: Second | None, joined: Second | None) -> Second | None:
+    """How much later it joined; `None` where it joined before the leader's last turn was over.
+
+    The optimum is to the final leg: there it would be compared with another leg.
+    """
+    leader = case.scenario.situation.leader
+    turned = sum(segment.length for segment in leader.trajectory.segments) / leader.tas
+    if optimum is None or joined is None or joined < turned:
+        return None
+    return joined - optimum
 
 
 def _why_not(documents: Sequence[Document]) -> str:
