@@ -109,13 +109,6 @@ class SimulationAnswer(Strict):
     """Time it took."""
     losses: list[SimulationLoss]
     """Times at which the minimum separation was lost."""
-    over_optimum_s: float | None
-    """How much later it joined than the fastest plan from its start; null if it did not join, or
-    if there is no such plan."""
-    along_error_m: float
-    """Largest distance from D along the leader's route while following."""
-    across_error_m: float
-    """Largest distance from the leader's route while following."""
     alerts: list[SimulationAlert]
     """Given to the pursuer's crew, and their ends."""
     unables: list[SimulationUnable]

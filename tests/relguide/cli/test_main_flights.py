@@ -179,14 +179,22 @@ def test_a_time_is_kept_and_guidance_flies_by_the_settings_given(run: Run) -> No
         (("--settings", "none.toml"), "none.toml"),
     ],
 )
+def test_a_spacing_that_cannot_be_kept_and_settings_that_are_not_there_are_refused(
+    run: Run, options: tuple[str, ...], sentence: str
+) -> None:
+    code, _, err = run("fly", "fig_6b", *options)
+    assert code == 2
+    assert sentence in err
+    assert "Traceback" not in err
+
+
 def test_the_air_and_what_is_seen_are_read_from_the_situation_of_a_flight(run: Run) -> None:
-    body = json.loads(NEAR) if isinstance(NEAR, str) else NEAR
     rough = {
         "air": {"gusts_mps": 1.5},
         "believed_air": {"wind": {"from_deg": 270, "speed_mps": 5}},
         "surveillance": {"kind": "adsb", "nacp": 8, "latency_s": 1.0},
     }
-    file = write(json.dumps(body | rough))
+    file = write(NEAR | rough)
     code, out, _ = run("fly", file, "--json", "--record", "rough.jsonl")
     figures = json.loads(out)
     assert (code, figures["joined"]) == (0, True)
@@ -207,15 +215,6 @@ def test_gusts_are_asked_for_on_the_command_line(run: Run) -> None:
     code, _, err = run("fly", write(NEAR), "--gusts", "11")
     assert code == 2
     assert "must lie in 0 … 10 m/s, not 11" in err
-
-
-def test_a_spacing_that_cannot_be_kept_and_settings_that_are_not_there_are_refused(
-    run: Run, options: tuple[str, ...], sentence: str
-) -> None:
-    code, _, err = run("fly", "fig_6b", *options)
-    assert code == 2
-    assert sentence in err
-    assert "Traceback" not in err
 
 
 @pytest.mark.slow

@@ -18,6 +18,7 @@ from tests.bodies import BODY
 from tests.server.serving import TestClient, ideal_app
 
 PATH = "/api/v1/simulations"
+GALE = {"from_deg": 0, "speed_mps": 60}
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +51,7 @@ def test_flights_are_flown_to_their_end_as_by_the_command(client: TestClient) ->
         ([{"scenario": "fig_6b"}, {"scenario": "unknown"}], "[1].scenario"),
         ([{"scenario": "fig_6b", "rate": 10.0}], "[0].rate"),
         ([{"situation": {**BODY, "slot_distance_m": 1.0}}], "[0].situation.slot_distance_m"),
+        ([{"situation": {**BODY, "air": {"wind": GALE}}}], "[0].situation.air.wind"),
     ],
 )
 def test_what_cannot_be_flown_is_refused_by_its_path(
