@@ -5,8 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from tools.campaign.recordings import all_tracks
 
+from relguide.campaign.recordings import all_tracks
 from relguide.flying.recordings.together import placed_on, together
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.frames import LocalPlane

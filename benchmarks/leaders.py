@@ -15,12 +15,12 @@ from benchmarks.options import positive
 from benchmarks.page import DOCS, with_block
 from benchmarks.tables import markdown, write_table
 from relguide import plan
+from relguide.campaign import recordings
 from relguide.flying.documents import FlightEnded, Unable
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario_behind
 from relguide.planning.progress import show_progress
 from relguide.units import NM
-from tools.campaign import recordings
 
 NAME = "leaders.csv"
 PAGE = DOCS / "flight.md"

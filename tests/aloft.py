@@ -1,6 +1,7 @@
 """Short ways to fly the flight kernels in tests: one aircraft, asked something once a second."""
 
 from collections.abc import Callable
+from math import inf
 
 import numpy as np
 
@@ -63,6 +64,11 @@ def hold(heading: float, tas: float = 240.0) -> Control:
     return Control(HOLD_HEADING, heading * DEG, tas)
 
 
+def steady(wind: Drift, count: int = 1, steps: int = round(1.0 / STEP)) -> FloatArray:
+    """One wind at each step of a second, for so many aircraft. shape (count, steps + 1, 2)"""
+    return np.tile(np.array(wind), (count, steps + 1, 1))
+
+
 def fly(
     asked: Law | Control,
     begun: Body,
@@ -77,13 +83,13 @@ def fly(
     states, rows = np.array([begun], dtype=float), [np.array([begun], dtype=float)]
     idle = np.zeros(1, dtype=np.int64)
     pilots = np.full(1, GUIDED, dtype=np.int64)
-    winds = np.tile(np.array(wind), (1, steps + 1, 1))
     for second in range(round(duration)):
         control = asked(float(second), Body(*states[0])) if callable(asked) else asked
         trace = np.zeros((1, steps + 1, 7))
         fly_second(
             states, np.array([limits]), pilots, np.array([control]), np.zeros((1, 0, 3)), idle,
-            idle.copy(), np.zeros(1), winds, float(second), step, trace, np.zeros((1, 4)),
+            idle.copy(), np.zeros(1), steady(wind, 1, steps), float(second), step, trace,
+            np.zeros((1, 4)),
         )  # fmt: skip
         rows.append(trace[0, 1:])
     return np.vstack(rows)
@@ -106,7 +112,7 @@ def tracking(
     """The law that tracks a path through the air mass, from length s on, at one speed."""
     progress = Progress(CONVERGE, s - tas, 0.0, 0.0)
     task = Task(tas, 10_000.0, 10_000.0, 0.0, 0.0)
-    course = Course(path, 0.0, 1e6, tas, wind)
+    course = Course(path, 0.0, 1e6, tas, wind, inf)
 
     def law(t: Second, body: Body) -> Control:
         nonlocal progress

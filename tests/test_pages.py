@@ -57,7 +57,7 @@ def test_the_client_that_does_not_wait() -> None:
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
     listed = {arguments[0] for arguments in shown_commands()}
     planning, learning = {"plan", "check"}, {"dataset", "area", "train", "audit"}
-    assert listed == {"fly", "replay", "serve", "warm-up"} | planning | learning
+    assert listed == {"fly", "replay", "campaign", "serve", "warm-up"} | planning | learning
     for command in listed:
         with pytest.raises(SystemExit) as end:
             main([command, "--help"])
@@ -91,7 +91,7 @@ def test_commands_with_examples_succeed(
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     monkeypatch.chdir(tmp_path)
     run = [asked for asked in shown_commands() if any("examples/" in name for name in asked)]
-    assert {arguments[0] for arguments in run} == {"plan", "check", "fly"}
+    assert {arguments[0] for arguments in run} == {"plan", "check", "fly", "campaign"}
     for arguments in run:
         assert main(arguments) == 0, arguments
         assert capsys.readouterr().out or "--out" in arguments

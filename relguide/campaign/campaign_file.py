@@ -23,8 +23,10 @@ from pathlib import Path
 from typing import Any
 
 from relguide.campaign.distribution import (
+    Choice,
     Distribution,
     Normal,
+    Uniform,
     as_table,
     read_distribution,
     within,
@@ -49,9 +51,22 @@ class Derived:
     vary: Mapping[str, Distribution]
 
 
+SEEN: Mapping[str, Distribution] = {
+    "nacp": Choice((7.0, 8.0, 9.0, 10.0)),
+    "nacv": Choice((1.0, 2.0)),
+    "latency_s": Uniform(0.2, 1.5),
+    "loss_share": Uniform(0.0, 0.1),
+}
+"""By ADS-B as it is: most aircraft broadcast NACp 8 … 10 and NACv 1 or 2."""
 DERIVED: Mapping[str, Derived] = {
     "exact": Derived("declared", {}),
     "wind_error": Derived("declared", {"wind_error_mps": Normal(0.0, 5.0)}),
+    "surveillance": Derived("undeclared", SEEN),
+    "gusts": Derived("declared", {"gusts_mps": Uniform(0.0, 1.5)}),
+    "mixed": Derived(
+        "undeclared",
+        {**SEEN, "wind_error_mps": Normal(0.0, 5.0), "gusts_mps": Uniform(0.0, 1.5)},
+    ),
 }
 """By name; to add one, a line. Its flights begin as those of its base with the same number."""
 KNOWN = (*FAMILIES, *DERIVED)

@@ -6,9 +6,10 @@ from dataclasses import dataclass, field, replace
 from relguide.flying.flight import DeclaredLeader, Scenario, world_of
 from relguide.flying.guidances import Guidance
 from relguide.flying.orders import Command
+from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.world import World
 from relguide.planning.situation import CALM, Wind
-from relguide.units import Second
+from relguide.units import MetrePerSecond, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -18,6 +19,8 @@ class Case:
     family: str
     number: int
     scenario: Scenario
+    noise_seed: int
+    """Of gusts and of what reports have wrong."""
     orders: tuple[tuple[Second, Command], ...] = ()
     """Commands to the leader, each at its time, in order."""
     factors: Mapping[str, float] = field(default_factory=dict)
@@ -26,6 +29,10 @@ class Case:
     """What guidance believes of the wind beyond what is true."""
     isa_error: float = 0.0
     """The same of the temperature [K]."""
+    gusts: MetrePerSecond = 0.0
+    """σ along and across [m/s]."""
+    surveillance: Surveillance = EXACT
+    """How the leader is seen."""
     guidance: Guidance = "relguide"
 
     @property
@@ -42,11 +49,16 @@ class Case:
             believed,
             **{name: factor * getattr(believed, name) for name, factor in self.factors.items()},
         )
-        air = None
-        if self.wind_error != CALM or self.isa_error:
-            air = world.air.with_error(wind_error=self.wind_error, isa_error=self.isa_error)
-        pursuer = replace(pursuer, airframe=true, believed=believed)
-        return replace(world, aircraft=(pursuer, leader), believed_air=air)
+        wrong = self.wind_error != CALM or self.isa_error
+        return replace(
+            world,
+            aircraft=(replace(pursuer, airframe=true, believed=believed), leader),
+            air=replace(world.air, gusts=self.gusts),
+            believed_air=world.air.with_error(wind_error=self.wind_error, isa_error=self.isa_error)
+            if wrong
+            else None,
+            surveillance=self.surveillance,
+        )
 
     def as_code(self) -> str:
         """The scenario and what comes with it, to paste; a recorded leader by its name."""
@@ -65,4 +77,6 @@ class Case:
             lines.append(f"factors = {dict(self.factors)!r}")
         if self.wind_error != CALM or self.isa_error:
             lines.append(f"wind_error, isa_error = {self.wind_error!r}, {self.isa_error}")
+        if self.gusts or self.surveillance != EXACT:
+            lines.append(f"gusts, surveillance = {self.gusts}, {self.surveillance!r}")
         return "\n".join(lines)

@@ -39,7 +39,14 @@ def draw_flight(campaign: Campaign, flight: int) -> DrawnFlight:
     kind = DERIVED.get(point.family, Derived(point.family, {}))
     case = draw(kind.base, number, campaign.seed)
     scenario = replace(case.scenario, name=point.family, title=f"{campaign.name} {flight}")
-    case = replace(case, family=point.family, scenario=scenario, guidance=campaign.guidance)
+    noise = int(stream(kind.base, number, campaign.seed, "noise").integers(2**32))
+    case = replace(
+        case,
+        family=point.family,
+        scenario=scenario,
+        noise_seed=noise,
+        guidance=campaign.guidance,
+    )
     drawn = {**kind.vary, **campaign.vary}
     values: dict[str, float] = {}
     for name, key in KEYS.items():

@@ -229,6 +229,7 @@ def _case(
     return Case(
         family=family,
         number=number,
+        noise_seed=number,
         scenario=Scenario(
             name=family,
             title=f"{family} {number}",

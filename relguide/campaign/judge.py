@@ -1,14 +1,15 @@
 """Flying a case, and its documents as one row of figures: all that a campaign knows of flying."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from math import hypot, inf
+from math import hypot
 from time import thread_time
 
 import numpy as np
 
 from relguide.campaign.case import Case
 from relguide.campaign.evasion import AHEAD, best_turn
-from relguide.campaign.instant import Instant, instant
+from relguide.campaign.instant import EVERY, instant
+from relguide.campaign.losses import losses_of, warnings_of
 from relguide.campaign.paths import (
     Floats,
     circles,
@@ -21,8 +22,8 @@ from relguide.campaign.paths import (
     turns_flown,
     without_corrections,
 )
-from relguide.campaign.row import Loss, Row
-from relguide.flying.aircraft_documents import GuidanceSample, HeadingReference, LinkResult
+from relguide.campaign.row import Row
+from relguide.flying.aircraft_documents import GuidanceSample, HeadingReference
 from relguide.flying.documents import (
     Alert,
     Document,
@@ -36,18 +37,9 @@ from relguide.flying.documents import (
 from relguide.flying.orders import Command
 from relguide.flying.simulation import simulate
 from relguide.kernels.base.angles import wrap_signed
-from relguide.planning.plan import Plan, plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation, Wind
 from relguide.units import DEG, Metre, Second
-
-EVERY: Second = 1.0
-"""Between samples: guidance acts as often."""
-ROUNDING: Metre = 1.0
-"""d_min less this is kept: a slot may lie on d_min itself."""
-WARNED: Second = 180.0
-"""An alert longer ago does not announce a loss, nor does one that was cleared."""
-SAME: Second = 2.0
-"""So near each other in time, a loss found here and one of a document are one."""
 
 
 def fly_case(case: Case) -> Row:
@@ -67,7 +59,7 @@ def documents_of(case: Case, sample_period: Second = EVERY) -> Iterator[Document
         title=scenario.title,
         commands=_orders(case.orders),
         sample_period=sample_period,
-        seed=case.number,
+        seed=case.noise_seed,
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
         guidance=case.guidance,
@@ -93,15 +85,15 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     assert isinstance(last, FlightEnded)
     (end,) = last.results
     situation = case.scenario.situation
-    optimum = _optimum(case)
+    optimum = end.optimum if end.optimum and case.leader_as_declared else None
     samples = [instant(document) for document in documents if isinstance(document, Sample)]
     changed = [document for document in documents if isinstance(document, PlanChanged)]
     engaged = changed[0] if end.planned_time > 0.0 else None
     planned = end.planned_time if engaged else None
     promised = end.promised if engaged else None
     joined = end.join_time if end.joined else None
-    warnings = tuple(_warnings(documents))
-    losses = tuple(_losses(situation.min_separation, samples, end, warnings))
+    warnings = tuple(warnings_of(documents))
+    losses = tuple(losses_of(situation.min_separation, samples, end, warnings))
     paths = [(document.t, document.plan.segments) for document in changed]
     flown = list(turns_flown(paths, last.t if joined is None else joined))
     turns = without_corrections(angle for angle, _ in flown)
@@ -122,7 +114,7 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         join_over_plan=joined / planned if joined and planned else None,
         join_over_promise=joined / promised if joined and promised else None,
         optimum_s=optimum,
-        over_optimum_s=None if joined is None or optimum is None else joined - optimum,
+        over_optimum_s=_over_optimum(case, optimum, joined),
         why_not_joined="" if end.joined else _why_not(documents),
         join_over_last_promise=_join_over_last_promise(changed, joined),
         least_share=end.least_separation / situation.min_separation,
@@ -137,6 +129,8 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         if engaged
         else None,
         unplanned_reversals=end.bank_reversals - reversals(turns) if engaged else None,
+        along_error_m=end.along_error,
+        across_error_m=end.across_error,
         swing_deg=end.heading_swing / DEG,
         loops=max(loops, 0),
         lone_loops=lone_circles(
@@ -157,10 +151,16 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     )
 
 
-def _optimum(case: Case) -> Second | None:
-    """What the fastest plan takes that knows all, where the leader flies what it declared."""
-    best = plan(case.scenario.situation) if case.leader_as_declared else None
-    return best.time_to_converge if isinstance(best, Plan) else None
+def _over_optimum(case: Case, optimum: Second | None, joined: Second | None) -> Second | None:
+    """How much later it joined; `None` where it joined before the leader's last turn was over.
+
+    The optimum is to the final leg: there it would be compared with another leg.
+    """
+    leader = case.scenario.situation.leader
+    turned = sum(segment.length for segment in leader.trajectory.segments) / leader.tas
+    if optimum is None or joined is None or joined < turned:
+        return None
+    return joined - optimum
 
 
 def _why_not(documents: Sequence[Document]) -> str:
@@ -185,58 +185,6 @@ def _join_over_last_promise(changed: Sequence[PlanChanged], joined: Second | Non
     if joined is None or not made or made[-1].t >= joined:
         return None
     return (joined - made[-1].t) / made[-1].promised
-
-
-def _warnings(documents: Iterable[Document]) -> Iterator[tuple[Second, Second]]:
-    """From when to when a crew was warned of what a loss of d_min may follow from."""
-    since: float | None = None
-    for document in documents:
-        match document:
-            case Alert(t=t, subject="separation", cleared=True):
-                if since is not None:
-                    yield since, t
-                since = None
-            case Alert(t=t, subject="separation", level="caution" | "warning"):
-                since = t if since is None else since
-            case Unable(t=t):
-                yield t, t + WARNED
-            case _:
-                pass
-    if since is not None:
-        yield since, inf
-
-
-def _losses(
-    min_separation: Metre,
-    samples: list[Instant],
-    end: LinkResult,
-    warnings: tuple[tuple[Second, Second], ...],
-) -> Iterator[Loss]:
-    """Each time below d_min."""
-    limit = min_separation - ROUNDING
-    runs: list[list[Instant]] = []
-    inside = False
-    for sample in samples:
-        below = sample.guidance.separation < limit
-        if below and not inside:
-            runs.append([])
-        if below:
-            runs[-1].append(sample)
-        inside = below
-    if not runs and end.least_separation < limit:  # between two samples
-        runs.append([min(samples, key=lambda s: s.guidance.separation)])
-    for run in runs:
-        begun = run[0].t
-        before = [begun - since for since, until in warnings if since <= begun <= until]
-        causes = [loss.cause for loss in end.losses if abs(loss.t - begun) <= SAME]
-        yield Loss(
-            t_s=begun,
-            separation_m=min(sample.guidance.separation for sample in run),
-            seconds=len(run) * EVERY,
-            mode=run[0].guidance.mode,
-            cause=causes[0] if causes else "",
-            announced_s=max(before) if before else None,
-        )
 
 
 def _heading_jump(documents: Iterable[Document]) -> float:

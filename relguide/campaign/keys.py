@@ -11,6 +11,8 @@ from typing import Any, NamedTuple
 
 from relguide.campaign.case import Case
 from relguide.campaign.starts import Draw
+from relguide.flying.air import GUSTS, ISA_DEVIATION
+from relguide.flying.surveillance import LATENCY, LOSS_SHARE
 from relguide.planning.inputs import Range
 from relguide.planning.limits import BANK, DISTANCE, SPACING, TAS, WIND
 from relguide.planning.situation import Situation, Wind, wind_from
@@ -117,6 +119,20 @@ def _isa_error(case: Case, value: float, rng: Draw) -> Case:
     return replace(case, isa_error=value)
 
 
+def _gusts(case: Case, value: float, rng: Draw) -> Case:
+    return replace(case, gusts=value)
+
+
+def _seen(name: str, as_given: Callable[[float], float] = float) -> Setter:
+    """By ADS-B, with one of its fields; the others keep their default."""
+
+    def set_it(case: Case, value: float, rng: Draw) -> Case:
+        changed: Any = {"kind": "adsb", name: as_given(value)}
+        return replace(case, surveillance=replace(case.surveillance, **changed))
+
+    return set_it
+
+
 def _with_speed(wind: Wind, speed: float, rng: Draw) -> Wind:
     """A wind with another speed; where it was calm, from anywhere."""
     anywhere = float(rng.uniform(0.0, 2.0 * pi))
@@ -131,7 +147,8 @@ def _with(case: Case, **changes: Any) -> Case:
 
 KEYS: Mapping[str, Key] = {
     "altitude_m": Key(Range(0.0, 15_000.0, "m"), _scenario("altitude"), "pressure altitude"),
-    "isa_deviation_k": Key(Range(-60.0, 60.0, "K"), _scenario("isa_deviation"), "warmer than ISA"),
+    "weight_kg": Key(Range(1e3, 1e6, "kg"), _scenario("pursuer_weight"), "of the pursuer"),
+    "isa_deviation_k": Key(ISA_DEVIATION, _scenario("isa_deviation"), "warmer than ISA"),
     "pursuer_tas_mps": Key(TAS, _pursuer("tas"), "V_P"),
     "max_bank_deg": Key(BANK, _pursuer("max_bank", DEG), "bank that the autopilot may use"),
     "leader_tas_mps": Key(TAS, _leader_tas, "V_L", True),
@@ -153,5 +170,10 @@ KEYS: Mapping[str, Key] = {
         FACTOR, _factor("zero_lift_drag", "induced_drag"), "true over believed, without brakes"
     ),
     "speed_brake_factor": Key(FACTOR, _factor("speed_brake_drag"), "true over believed"),
+    "gusts_mps": Key(GUSTS, _gusts, "σ along and across, Dryden"),
+    "nacp": Key(Range(1, 11, "of NACp"), _seen("nacp", round), "category of ADS-B positions"),
+    "nacv": Key(Range(1, 4, "of NACv"), _seen("nacv", round), "category of ADS-B velocities"),
+    "latency_s": Key(LATENCY, _seen("latency"), "of reports"),
+    "loss_share": Key(LOSS_SHARE, _seen("loss_share"), "of reports"),
 }
 """By name, each with its unit."""

@@ -65,10 +65,14 @@ class Row:
     """Largest between held headings of two seconds without an announcement."""
     cross_track_m: float
     """Largest distance from the path of the last plan, while it is flown."""
+    along_error_m: float = 0.0
+    """Largest distance along the route from where it should be, while it followed."""
+    across_error_m: float = 0.0
+    """The same beside the route."""
     optimum_s: float | None = None
     """Of the fastest plan to the final leg, all known; `None` without, or with orders."""
     over_optimum_s: float | None = None
-    """How much later it joined; below 0, where it joined before the leader's last turn."""
+    """How much later it joined; `None` where it joined before the leader's last turn."""
     why_not_joined: str = ""
     join_over_last_promise: float | None = None
     """Over the promise from the plan last announced, and by its promise."""
@@ -150,6 +154,8 @@ FIGURES = (
     Figure(name="cross_track_m", heading="off the plan's path, m"),
     Figure(name="off_announced_m", heading="off the announced path, m"),
     Figure(name="off_forecast_m", heading="off the forecast, m"),
+    Figure(name="along_error_m", heading="off along the route, following, m"),
+    Figure(name="across_error_m", heading="off beside the route, following, m"),
     Figure(name="fastest_mps", heading="fastest, m/s", decimals=1),
     Figure(name="cpu_s", heading="CPU, s", decimals=2),
 )

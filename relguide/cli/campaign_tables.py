@@ -1,6 +1,6 @@
 """A campaign's report for people and for programs."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import astuple
 from math import isfinite
 from pathlib import Path
@@ -11,10 +11,15 @@ from relguide.campaign.report import CampaignReport, Estimate, PointReport
 from relguide.campaign.row import FIGURES, Figure
 from relguide.cli.output import write
 from relguide.cli.shared_tables import percent, print_table, table, with_interval
-from relguide.learn.training.shares import share_as_json
+from relguide.learn.training.shares import Share, share_as_json
 
-BESIDE = ("joined", "lost")
-"""Shares that are shown with their interval."""
+SHARES: Mapping[str, Callable[[Share], str]] = {
+    "joined": with_interval,
+    "lost": with_interval,
+    "lost_unannounced": percent,
+    "failed": percent,
+}
+"""Shares in the table, and how they are written; JSON has more."""
 SHOWN = {figure.name: figure for figure in FIGURES}
 
 
@@ -27,16 +32,11 @@ def print_report(asked: Campaign, found: CampaignReport, folder: Path) -> None:
     """Print shares, figures, differences and the worst flights."""
     write(f"{asked.name}: {asked.total:,} flights\n")
     shares = table("share of flights, %")
-    for name in found.points[0].shares:
-        shares.add_column(name.replace("_", " "), justify="right")
+    for name in SHARES:
+        shares.add_column(name.replace("_", " "), justify="right", no_wrap=True)
     for point in found.points:
-        shares.add_row(
-            point.point.name,
-            *(
-                with_interval(share) if name in BESIDE else percent(share)
-                for name, share in point.shares.items()
-            ),
-        )
+        cells = (written(point.shares[name]) for name, written in SHARES.items())
+        shares.add_row(point.point.name, *cells)
     print_table(shares)
     for point in found.points:
         _print_point(point)

@@ -119,12 +119,12 @@ class Belief:
     @property
     def speed_slack(self) -> MetrePerSecond:
         """A speed so much off may only seem to be [m/s]."""
-        return SEEMS * self.spread.velocity
+        return SEEMS * hypot(self.spread.velocity, self.spread.wind)
 
     @property
     def heading_slack(self) -> Radian:
         """A heading so far off may only seem to be [rad]."""
-        return SEEMS * self.spread.velocity / max(self.leader.tas, 1.0)
+        return self.speed_slack / max(self.leader.tas, 1.0)
 
     @cached_property
     def separation(self) -> Metre:

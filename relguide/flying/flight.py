@@ -25,7 +25,9 @@ from relguide.flying.orders import PursuerHeading as PursuerHeading
 from relguide.flying.orders import SetEngagement as SetEngagement
 from relguide.flying.orders import no_commands as no_commands
 from relguide.flying.simulation import simulate, whole_steps
+from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
+from relguide.flying.wind_profile import WindProfile
 from relguide.flying.world import ALTITUDES, Aircraft, Declared, Guided, Link, Recorded, World
 from relguide.planning.inputs import (
     expect,
@@ -38,8 +40,8 @@ from relguide.planning.inputs import (
 )
 from relguide.planning.limits import SPACING
 from relguide.planning.plan import Plan, Planner, plan
-from relguide.planning.situation import IntentPiece, Situation, TurnTo
-from relguide.units import DEG, Kilogram, Metre, Radian, Second
+from relguide.planning.situation import CALM, IntentPiece, Situation, TurnTo
+from relguide.units import DEG, Kilogram, Metre, MetrePerSecond, Radian, Second
 
 TEXTS = ("name", "title", "description", "pursuer_ident", "leader_ident", "leader_type")
 """Fields of a scenario that people read."""
@@ -82,6 +84,14 @@ class Scenario:
     """Of both [m]; FL310."""
     isa_deviation: float = 0.0
     """Temperature above the standard atmosphere's [K]."""
+    profile: WindProfile | None = None
+    """The wind by altitude that blows in place of the situation's."""
+    gusts: MetrePerSecond = 0.0
+    """σ of gusts along and across an aircraft's heading [m/s]."""
+    believed_air: Air | None = None
+    """What guidance believes of the air at the start; the truth, if left out."""
+    surveillance: Surveillance = EXACT
+    """How the pursuer sees its leader."""
     spacing: Second = 0.0
     """Time behind the leader to keep once joined [s]; 0 to keep D."""
     duration_limit: Second = 3600.0
@@ -102,6 +112,9 @@ class Scenario:
             )
         expect_within("altitude", self.altitude, *ALTITUDES)
         expect_within("spacing", self.spacing, *SPACING)
+        if self.believed_air is not None:
+            expect("believed_air", self.believed_air, Air)
+        expect("surveillance", self.surveillance, Surveillance)
         if number("duration_limit", self.duration_limit) <= 0.0:
             raise ValueError(f"duration_limit must be above 0 s, not {self.duration_limit}.")
         if number("after_joining", self.after_joining) < 0.0:
@@ -122,7 +135,12 @@ class Scenario:
     @property
     def air(self) -> Air:
         """The air it is flown in."""
-        return Air(wind=self.situation.wind, isa_deviation=self.isa_deviation)
+        return Air(
+            wind=self.situation.wind if self.profile is None else CALM,
+            profile=self.profile,
+            isa_deviation=self.isa_deviation,
+            gusts=self.gusts,
+        )
 
 
 def fly(
@@ -277,6 +295,8 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
             ),
         ),
         air=scenario.air,
+        believed_air=scenario.believed_air,
+        surveillance=scenario.surveillance,
         settings=settings,
     )
 

@@ -18,6 +18,14 @@ LADDER: tuple[tuple[Second, Standing], ...] = (
     (2.0, "normal"), (5.0, "coasting"), (10.0, "old"), (24.0, "lost"), (inf, "gone"),
 )  # fmt: skip
 """Up to which age [s] a track has which standing; the ages are the project's own."""
+FEW = 8
+"""The mean of fewer reports is no better than the filter."""
+MANY = 60
+"""Older reports than this count less and less: no aircraft keeps its velocity for ever."""
+LEFT_BY = 3.0
+"""So many σ from its mean velocity an aircraft does something new [σ]."""
+ALIKE = 2.0
+"""Errors of so many reports in a row are about the same: gusts last for seconds."""
 FORGOTTEN: Second = 30.0
 """An older track says nothing of a new report: it is begun anew [s]."""
 LEAST_SIGMAS: tuple[Metre, MetrePerSecond] = (0.1, 0.01)
@@ -43,6 +51,43 @@ def standing(age: Second) -> Standing:
     return next(name for most, name in LADDER if age <= most + 1e-6)
 
 
+class SteadyVelocity:
+    """The mean of the velocities reported since the aircraft last did something new.
+
+    What it flies on with is known better by many reports than by the last few, and a slot minutes
+    ahead is as uncertain as the velocity that it is predicted by.
+    """
+
+    def __init__(self) -> None:
+        """Nothing is reported yet."""
+        self.east = self.north = 0.0
+        self.sigma = inf
+        """Of both [m/s]."""
+        self._count = 0
+
+    def add(self, report: Report, seen: "LeaderTrack") -> None:
+        """Take in a report, or begin anew where the aircraft no longer flies so.
+
+        Args:
+            report: the last one.
+            seen: the track with it, which follows what is new.
+        """
+        if self._count >= FEW:
+            east, north = seen.speed * sin(seen.track), seen.speed * cos(seen.track)
+            off = hypot(east - self.east, north - self.north)
+            if off > LEFT_BY * hypot(max(seen.velocity_sigma), self.sigma):
+                self._count = 0
+        self._count = min(self._count + 1, MANY)
+        self.east += (report.east - self.east) / self._count
+        self.north += (report.north - self.north) / self._count
+        self.sigma = report.velocity_sigma * sqrt(ALIKE / self._count)
+
+    @property
+    def is_known(self) -> bool:
+        """Whether it is better than what the last reports say."""
+        return self._count > FEW
+
+
 class LeaderTrack:
     """Another aircraft as it is believed to fly: one of the few things here that change."""
 
@@ -58,6 +103,9 @@ class LeaderTrack:
         self.surprise = 0.0
         """Of the last report, as the tracker says; 4 in the mean, more when something changes."""
         self._state, self._covariance = _begun(report)
+        self.steady = SteadyVelocity()
+        """Its velocity while it does nothing new."""
+        self.steady.add(report, self)
 
     def second(self, t: Second, report: Report | None) -> None:
         """Go on to t [s], and take in what has been reported by then, if anything has."""
@@ -77,6 +125,7 @@ class LeaderTrack:
         else:
             return
         self._heard = t
+        self.steady.add(report, self)
 
     @property
     def x(self) -> Metre:

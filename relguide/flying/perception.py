@@ -129,9 +129,13 @@ class Perception:
             body = self._in_air(leader, leader.x, leader.y, east, north, None)
             return Perceived(body, self._wind, Spread(wind=wind_sigma), 0.0)
         track = self._follow(t, report)
-        east, north = track.speed * sin(track.track), track.speed * cos(track.track)
-        body = self._in_air(leader, track.x, track.y, east, north, track.rate)
-        place, velocity = max(track.position_sigma), max(track.velocity_sigma)
+        place, steady = max(track.position_sigma), track.steady
+        if steady.is_known:
+            east, north, rate, velocity = steady.east, steady.north, 0.0, steady.sigma
+        else:
+            east, north = track.speed * sin(track.track), track.speed * cos(track.track)
+            rate, velocity = track.rate, max(track.velocity_sigma)
+        body = self._in_air(leader, track.x, track.y, east, north, rate)
         return Perceived(body, self._wind, Spread(place, velocity, wind_sigma), track.age)
 
     def _follow(self, t: Second, report: Report | None) -> LeaderTrack:

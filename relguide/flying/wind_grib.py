@@ -5,7 +5,7 @@ from typing import Any
 
 from relguide.flying.air import pressure_altitude
 from relguide.flying.wind_profile import WindLevel, WindProfile
-from relguide.planning.extras import need
+from relguide.planning.extras import is_installed, need
 from relguide.planning.inputs import expect_within
 from relguide.planning.wind import Wind
 
@@ -48,6 +48,8 @@ def load_grib(path: Path | str, lat: float, lon: float) -> WindProfile:
 
 def _opened(path: Path | str) -> Any:
     """The winds on pressure levels of a file."""
+    if is_installed("pyproj"):  # imported after eccodes, it crashes the process at its end
+        import pyproj  # noqa: F401
     import xarray
 
     keys = {"typeOfLevel": "isobaricInhPa", "shortName": ["u", "v"]}

@@ -8,7 +8,7 @@ Every answer is a new memory and an `Advice`: nothing here changes in place.
 from dataclasses import replace
 from math import cos, hypot, sin
 
-from relguide.flying.belief import Belief
+from relguide.flying.belief import SEEMS, Belief
 from relguide.flying.guidance.announcements import (
     Event,
     PlanReason,
@@ -34,7 +34,7 @@ from relguide.flying.guidance.leader_news import (
     turns_unannounced,
 )
 from relguide.flying.guidance.leaving import (
-    clear_heading,
+    clear_way,
     keep_heading,
     must_leave,
     turn_away,
@@ -167,7 +167,7 @@ def _stay_or_change(
         steady = is_steady(memory, belief, assignment)
         stay = 0.0 if steady else settings.better_while_turning
         reason: PlanReason = changed or "leader_elsewhere"
-        if news or not steady:
+        if news or turns_unannounced(belief, assignment):
             return _plan_again(memory, belief, assignment, planner, reason=reason, stay=stay)
         return _plan_if_sooner(memory, committed, belief, assignment, planner, reason)
     if _is_overdue(memory, belief, assignment):
@@ -215,13 +215,13 @@ def _plan_if_sooner(
 def _slot_slack(belief: Belief, committed: Committed) -> Metre:
     """How far the slot may only seem to have moved, where it will be when the plan ends [m]."""
     left = max(committed.due - belief.t, 0.0)
-    return hypot(belief.place_slack, belief.speed_slack * left)
+    return hypot(belief.place_slack, SEEMS * belief.spread.velocity * left)
 
 
 def _is_overdue(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
     """Whether the path has been flown to its end and does not join."""
     committed, t = memory.committed, belief.t
-    if committed is None or t < committed.due + assignment.settings.ask_every:
+    if committed is None or t < committed.due + assignment.settings.overdue:
         return False
     ahead = committed.forecast if memory.forecast is None else memory.forecast
     return not ahead.joins
@@ -256,8 +256,9 @@ def _plan_again(
     memory, events = say_no_plan(memory, belief, assignment, found.answer, events)
     message = f"No plan: holding a safe heading. {found.answer.message}"
     memory, news = enter(memory, belief, "heading", message)
-    out = clear_heading(memory, belief, assignment)
-    progress = Progress(NUMBERS["heading"], 0.0, out, assignment.tas)
+    out = clear_way(memory, belief, assignment)
+    tas = out.tas if out.tas < belief.own.tas else assignment.tas
+    progress = Progress(NUMBERS["heading"], 0.0, out.heading, tas)
     return memory._replace(progress=progress, committed=None, forecast=None), [*events, *news]
 
 

@@ -24,7 +24,7 @@ STEPS = 4
 FOLLOWED: Second = 150.0
 """How long a forecast goes on once it has joined [s]."""
 NO_COURSE = Course(
-    lay_path(0.0, 0.0, 0.0, np.zeros((0, 2)), 1.0, 0.0, 1.0), 0.0, 0.0, 0.0, Drift(0.0, 0.0)
+    lay_path(0.0, 0.0, 0.0, np.zeros((0, 2)), 1.0, 0.0, 1.0), 0.0, 0.0, 0.0, Drift(0.0, 0.0), NEVER
 )
 """Where no path is committed."""
 

@@ -58,7 +58,7 @@ def judge_speed(
 ) -> tuple[Memory, tuple[Event, ...]]:
     """Whether the leader is slower than the pursuer can fly, and what is said of it once."""
     slow, in_hand = belief.leader.tas, assignment.settings.speed_in_hand
-    if slow < assignment.min_tas - in_hand:
+    if slow < assignment.min_tas - in_hand - belief.speed_slack:
         if memory.unable == "speed":
             return memory, ()
         message = (

@@ -9,7 +9,7 @@ speed, with a leader that goes on doing so. An alert begins when separation woul
 from math import hypot, inf
 from typing import NamedTuple
 
-from relguide.flying.belief import Belief
+from relguide.flying.belief import SEEMS, Belief
 from relguide.flying.guidance.announcements import Alerted, AlertLevel, AlertState, Event
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast, forecast
@@ -51,7 +51,8 @@ def leader_is_as_forecast(ahead: Forecast, belief: Belief, assignment: Assignmen
     off, turned, faster = ahead.leader_off(belief.t, belief.leader)
     since = min(belief.t - ahead.t, settings.caution)
     return (
-        off <= settings.leader_off + hypot(belief.place_slack, belief.speed_slack * since)
+        off
+        <= settings.leader_off + hypot(belief.place_slack, SEEMS * belief.spread.velocity * since)
         and turned <= settings.leader_turned + belief.heading_slack
         and faster <= settings.leader_speed + belief.speed_slack
     )

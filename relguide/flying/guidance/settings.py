@@ -75,6 +75,11 @@ class Settings:
     only at the slot."""
     capture_across: Metre = 600.0
     """How far the path may end beside the leader's: a minute's correction on a straight."""
+    capture_late: Metre = 2_000.0
+    """… or once it should have ended: the leader did not fly as expected, and its path is nearer
+    than any other way round to the slot."""
+    overdue: Second = 20.0
+    """A path that ended so long ago and is not captured is given up."""
     ask_every: Second = 10.0
     """While the leader is as expected, the exact planner is asked this often for a better path: a
     path that was the fastest stays so along it. Other planners are asked each second."""
@@ -207,6 +212,7 @@ class Settings:
             self.capture_near,
             self.capture_slot,
             self.capture_across,
+            self.capture_late,
         )
 
 

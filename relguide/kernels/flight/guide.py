@@ -77,7 +77,9 @@ class Gate(NamedTuple):
     capture_slot: float
     """… with no more than this to close [m], if it ends no farther beside that path than …"""
     capture_across: float
-    """… this [m]."""
+    """… this [m], or …"""
+    capture_late: float
+    """… once it should have been flown to its end, no farther beside it than this [m]."""
 
 
 class Course(NamedTuple):
@@ -93,6 +95,8 @@ class Course(NamedTuple):
     """How fast it moves along it [m/s]."""
     wind: Drift
     """That moves the air mass in which it was laid, as it was believed then."""
+    due: float
+    """When it ends at the slot, flight time [s]."""
 
 
 class Progress(NamedTuple):
@@ -148,7 +152,7 @@ def act(
         s, right = project(course.path, x, y, progress.s + body.tas)
         to_slot = course.slot + course.slot_tas * since - s
         if turning_after(course.path, s) > gate.capture_turn or not _is_near_marks(
-            marks, body, task, gate, to_slot
+            marks, body, task, gate, to_slot, t >= course.due
         ):
             tas = task.tas
             keeping = course.slot_tas - rest.east * sin(body.heading)
@@ -199,7 +203,9 @@ def _slot_on(marks: FloatArray, task: Task) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _is_near_marks(marks: FloatArray, body: Body, task: Task, gate: Gate, to_slot: float) -> bool:
+def _is_near_marks(
+    marks: FloatArray, body: Body, task: Task, gate: Gate, to_slot: float, late: bool
+) -> bool:
     """Whether the leader's flown path is near enough to be captured from here."""
     s, _ = beside_marks(marks, body.x, body.y, _slot_on(marks, task) - to_slot)
     _, x, y, heading, _ = mark_at(marks, at.S, s)
@@ -210,7 +216,7 @@ def _is_near_marks(marks: FloatArray, body: Body, task: Task, gate: Gate, to_slo
         return False
     # in wind its straight in the air mass leads to the slot, and not along the leader's ground path
     most = gate.capture_near if to_slot > gate.capture_slot else gate.capture_across
-    return across < most
+    return across < (gate.capture_late if late else most)
 
 
 @njit(cache=True, nogil=True)

@@ -28,6 +28,7 @@ def test_points_of_a_sweep_are_pairs() -> None:
         assert other.values["leader_tas_share"] == first.values["leader_tas_share"]
         ours, theirs = (one.case.scenario.situation for one in (first, other))
         assert ours.leader == theirs.leader
+        assert other.case.noise_seed == first.case.noise_seed
         assert (ours.pursuer.x, ours.pursuer.y) == (theirs.pursuer.x, theirs.pursuer.y)
     five, ten = (draw_flight(swept, 6 + at).case.wind_error for at in (2, 4))
     assert (five.speed, ten.speed) == (pytest.approx(5.0), pytest.approx(10.0))
@@ -69,7 +70,8 @@ VALUES = {
     "slot_beyond_m": 500.0, "spacing_s": 60.0, "start_distance_m": 30_000.0,
     "start_bearing_deg": 90.0, "wind_mps": 12.0, "wind_from_deg": 45.0, "wind_error_mps": 4.0,
     "isa_error_k": -3.0, "roll_rate_factor": 0.8, "roll_lag_factor": 1.2, "speed_lag_factor": 1.1,
-    "thrust_factor": 0.9, "drag_factor": 0.5, "speed_brake_factor": 0.5,
+    "thrust_factor": 0.9, "drag_factor": 1.1, "speed_brake_factor": 0.5, "weight_kg": 120_000.0,
+    "gusts_mps": 1.0, "nacp": 8.0, "nacv": 2.0, "latency_s": 1.2, "loss_share": 0.1,
 }  # fmt: skip
 
 
@@ -106,6 +108,14 @@ def test_each_key_changes_what_it_says(key: str) -> None:
         "thrust_factor": true.thrust_share / believed.thrust_share,
         "drag_factor": true.zero_lift_drag / believed.zero_lift_drag,
         "speed_brake_factor": true.speed_brake_drag / believed.speed_brake_drag,
+        "weight_kg": world.aircraft[0].weight,
+        "gusts_mps": world.air.gusts,
+        **{
+            name: getattr(world.surveillance, name.removesuffix("_s"))
+            if world.surveillance.kind == "adsb"
+            else None
+            for name in ("nacp", "nacv", "latency_s", "loss_share")
+        },
     }
     assert found[key] == pytest.approx(VALUES[key])
 

@@ -129,6 +129,14 @@ def test_the_optimum_is_the_plan_that_knows_all() -> None:
     assert cut.why_not_joined.startswith("time_over in ")
 
 
+def test_a_flight_that_joins_an_earlier_leg_is_not_compared_with_the_last() -> None:
+    row = fly_case(draw("undeclared", 1))
+    assert row.optimum_s is not None
+    assert row.join_s is not None
+    assert row.join_s < row.optimum_s - 900.0
+    assert row.over_optimum_s is None
+
+
 def test_what_guidance_believes_wrongly_is_what_the_case_says() -> None:
     case = replace(
         draw("declared", 0), wind_error=Wind(east=3.0, north=-4.0), factors={"max_roll_rate": 0.5}

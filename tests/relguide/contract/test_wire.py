@@ -47,6 +47,7 @@ GUIDANCE = GuidanceSample(
     time_to_go=500.0,
     joined=False,
     alert="caution",
+    margin=120.0,
 )
 SAMPLE = Sample(
     t=12.05,
@@ -93,6 +94,7 @@ def test_a_sample_in_full() -> None:
                 "joined": False,
                 "alert": "caution",
                 "leader_age_s": 0.0,
+                "margin_m": 120.0,
                 "engagement": "engaged",
             }
         ],

@@ -9,11 +9,13 @@ from relguide.flying.air import Air
 from relguide.flying.airframe import airframe
 from relguide.flying.belief import ROOM, SPARE, Belief, FlownTrack, intent_after
 from relguide.flying.fleet import Fleet
+from relguide.flying.perception import CERTAIN, Perceived, Spread
+from relguide.flying.pursuit import begin_pursuit
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, World
 from relguide.kernels.flight.flight_records import Drift
 from relguide.kernels.flight.laws import ground_track
 from relguide.kernels.flight.program import roll_lead
-from relguide.planning.situation import CALM, FlyStraight, IntentPiece, Leader, TurnTo, Wind
+from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo, Wind
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, NM
 from tests.aloft import level
@@ -26,7 +28,7 @@ STRAIGHT, TURN = (
 )
 
 
-def world(*, pilot: Pilot | None = None, believed_air: Air | None = None) -> World:
+def world(*, pilot: Pilot | None = None) -> World:
     def one(ident: str, x: float, flown_by: Pilot) -> Aircraft:
         return Aircraft(
             ident=ident, airframe=airframe("A306"), aircraft_type="A306", x=x, y=0.0,
@@ -40,19 +42,16 @@ def world(*, pilot: Pilot | None = None, believed_air: Air | None = None) -> Wor
         ),
         links=(Link(pursuer="P", leader="L", slot_distance=D, min_separation=5.0 * NM),),
         air=Air(wind=WIND),
-        believed_air=believed_air,
     )
 
 
-def leader_after(
-    seconds: int, *, known: bool = True, pilot: Pilot | None = None, air: Air | None = None
-) -> Belief:
+def leader_after(seconds: int, *, known: bool = True, pilot: Pilot | None = None) -> Belief:
     """What is known after some seconds."""
-    fleet = Fleet(world(pilot=pilot, believed_air=air), 0.05)
-    track = fleet.begin_track(fleet.world.links[0])
+    fleet = Fleet(world(pilot=pilot), 0.05)
+    track = begin_pursuit(fleet.world, fleet, fleet.world.links[0]).track
     for second in range(seconds):
         fleet.fly_second(float(second))
-        track.add(fleet.body(1), fleet.drift, float(second + 1))
+        track.add(fleet.body(1), fleet.drift(1), float(second + 1))
     return fleet.belief(0, 1, track, float(seconds), known)
 
 
@@ -151,13 +150,21 @@ def test_of_an_intent_so_much_is_left_after_a_while() -> None:
     assert (left.duration, last) == (pytest.approx(50.0), back)
 
 
-def test_guidance_believes_its_own_air() -> None:
-    assert leader_after(0).wind == WIND
-    wrong = leader_after(10, air=Air(wind=CALM))
-    assert wrong.wind == CALM
-    assert wrong.drift == Drift(0.0, 0.0)
-    # where it is, is seen; only the wind is believed
-    assert wrong.own.x == pytest.approx(-30e3 + 10.0 * (200.0 + WIND.east))
+def test_what_is_perceived_is_believed_of_the_leader_and_the_air() -> None:
+    assert (leader_after(0).wind, leader_after(0).spread) == (WIND, CERTAIN)
+    fleet = Fleet(world(), 0.05)
+    track = begin_pursuit(fleet.world, fleet, fleet.world.links[0]).track
+    seen = Perceived(level(300.0, 40.0, 88.0, tas=203.0), Drift(3.0, 4.0), Spread(60.0, 2.0), 1.5)
+    belief = fleet.belief(0, 1, track, 0.0, True, seen=seen)
+    assert belief.own == fleet.body(0)  # where it is itself is known
+    assert (belief.leader, belief.leader_tas) == (seen.leader, 203.0)
+    assert (belief.wind, belief.drift) == (Wind(east=3.0, north=4.0), seen.wind)
+    assert (belief.spread, belief.leader_age) == (seen.spread, 1.5)
+    # 90° was declared: in a wind that is known no better, it heads as it seems to
+    assert belief.holds == seen.leader.heading
+    assert [belief.place_slack, belief.speed_slack, belief.heading_slack] == pytest.approx(
+        [3.0 * 60.0, 3.0 * 2.0, 3.0 * 2.0 / 203.0]
+    )
 
 
 def test_at_first_sight_the_leader_has_come_straight() -> None:

@@ -31,7 +31,7 @@ FLIGHTS = {
     "6a": (fig_6(intent_known=False), LEADER_TURNS_AT, 200.0),
     "6b": (fig_6(intent_known=True), 0.0, 900.0),
     "head-on, 353 degrees of turns": (own_scenario(FARTHER), 0.0, 450.0),
-    "78 kt of wind": (own_scenario(IN_WIND), 0.0, 500.0),
+    "78 kt of wind": (own_scenario(IN_WIND), 0.0, 450.0),
 }
 """By name: the flight, from when on it is looked at [s], how long one forecast must stand [s]."""
 

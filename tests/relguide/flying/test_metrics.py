@@ -92,7 +92,7 @@ def test_a_loss_keeps_its_least_separation() -> None:
 
 
 def test_the_result_of_a_pursuer_that_has_not_joined_ends_with_the_flight() -> None:
-    result = link_result(77.0, NAMES, FlightMetrics(inf), fallbacks=2)
+    result = link_result(77.0, NAMES, FlightMetrics(inf), fallbacks=2, optimum=0.0)
     assert (result.joined, result.join_time, result.fallbacks) == (False, 77.0, 2)
     joined = FlightMetrics(inf, joined=True, join_time=55.0)
-    assert link_result(77.0, NAMES, joined, 0).join_time == 55.0
+    assert link_result(77.0, NAMES, joined, 0, 40.0).join_time == 55.0

@@ -1,8 +1,9 @@
 """A forecast in GRIB gives the winds above a place, each at its pressure altitude."""
 
+import subprocess
+import sys
 from pathlib import Path
 
-import eccodes
 import numpy as np
 import pytest
 
@@ -21,6 +22,11 @@ def write(
     path: Path, parameters: tuple[int, ...] = (131, 132), steps: tuple[int, ...] = (6,)
 ) -> Path:
     """A forecast of u and v on a small grid, as ECMWF numbers them."""
+    import pyproj  # noqa: F401  # before eccodes, as `load_grib` does
+
+    # isort: split
+    import eccodes
+
     with path.open("wb") as file:
         for step in steps:
             for parameter in parameters:
@@ -80,3 +86,18 @@ def test_files_without_such_winds_are_refused(tmp_path: Path) -> None:
         load_grib(tmp_path / "text.grib", 99.0, 2.0)
     with pytest.raises(FileNotFoundError):
         load_grib(tmp_path / "nothing.grib", 49.0, 2.0)
+
+
+def test_where_winds_were_read_places_can_still_be_laid_in_a_plane(tmp_path: Path) -> None:
+    """Eccodes and pyproj in one process: in the wrong order it warns, and crashes at its end."""
+    path = write(tmp_path / "winds.grib")
+    code = f"""if True:
+        from relguide.flying.wind_grib import load_grib
+        from relguide.planning.frames import LocalPlane
+        load_grib({str(path)!r}, 48.9, 2.4)
+        print(LocalPlane(48.9, 2.4).to_local(48.9, 2.4))
+    """
+    ran = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=False
+    )
+    assert (ran.returncode, ran.stdout, ran.stderr) == (0, "(0.0, 0.0)\n", "")

@@ -11,6 +11,7 @@ from relguide.flying.airframe import airframe
 from relguide.flying.documents import FlightEnded, FlightStarted, Sample, Unable
 from relguide.flying.fleet import EDGE, OFF_HEADING, OFF_INTENT, Fleet, limits_of
 from relguide.flying.flight import fly
+from relguide.flying.pursuit import begin_pursuit
 from relguide.flying.scenarios import scenario
 from relguide.flying.simulation import simulate
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, Recorded, World
@@ -194,7 +195,7 @@ def test_guidance_may_believe_another_airframe_than_flies() -> None:
         links=(link("P", "L"),),
     )  # fmt: skip
     fleet = Fleet(world, 0.05)
-    belief = fleet.belief(0, 1, fleet.begin_track(world.links[0]), 0.0, True)
+    belief = begin_pursuit(world, fleet, world.links[0]).belief(fleet, 0.0)
     assert belief.limits.max_roll_rate == A306.max_roll_rate
     assert fleet.limits[0, 1] == slow.max_roll_rate
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from relguide.campaign import campaign
 from relguide.learn.training import chunks
 from relguide.learn.training.chunks import Cluster, gather
 from relguide.learn.words.branch_labels import (
@@ -227,3 +228,10 @@ def test_the_library_does_not_load_dask() -> None:
     loaded = f"import sys, {modules}; print('dask' in sys.modules)"
     said = subprocess.run([sys.executable, "-c", loaded], capture_output=True, check=True)
     assert said.stdout.strip() == b"False"
+
+
+def test_a_campaign_on_a_cluster_is_the_same(machines: LocalCluster, tmp_path: Path) -> None:
+    asked = {"campaign": {"flights": 12, "family": "mixed", "seed": 2, "limit_s": 120}}
+    far = campaign(asked, tmp_path / "far", dask=machines.address)
+    near = campaign(asked, tmp_path / "near", processes=1)
+    assert far.drop_columns(["cpu_s"]).equals(near.drop_columns(["cpu_s"]))

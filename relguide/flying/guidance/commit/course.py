@@ -47,7 +47,7 @@ def _course_of(
     slot_tas = plan.situation.leader.tas
     arrives = belief.t + lead.seconds + plan.time_to_converge
     slot = float(path[-1, on.S]) - slot_tas * (arrives - begun)
-    return Course(path, begun, slot, slot_tas, belief.drift), s
+    return Course(path, begun, slot, slot_tas, belief.drift, arrives), s
 
 
 def in_the_air_of_now(course: Course, belief: Belief) -> Course:

@@ -7,7 +7,7 @@ from relguide.flying.fleet import Fleet
 from relguide.flying.flight import Scenario, world_of
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.settings import DEFAULT, Settings
-from relguide.flying.pursuit import assignment_of
+from relguide.flying.pursuit import assignment_of, begin_pursuit
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.kernels.flight.flight_records import Control
 from relguide.planning.situation import Leader, Pursuer, Situation
@@ -28,7 +28,7 @@ class Watched:
         self.world = world_of(self.scenario, self.settings)
         (self.link,) = self.world.links
         self.fleet = Fleet(self.world, 0.05)
-        self.track = self.fleet.begin_track(self.link)
+        self.track = begin_pursuit(self.world, self.fleet, self.link).track
         self.assignment = assignment_of(self.world, self.link)
 
     @property
@@ -39,7 +39,7 @@ class Watched:
         self.fleet.control(0, control)
         self.fleet.fly_second(self.t)
         self.t += 1.0
-        self.track.add(self.fleet.body(1), self.fleet.drift, self.t)
+        self.track.add(self.fleet.body(1), self.fleet.drift(1), self.t)
 
 
 def observe(scenario: Scenario, settings: Settings = DEFAULT) -> tuple[Belief, Assignment]:

@@ -125,11 +125,11 @@ def test_far_ahead_half_a_percent_of_the_time_left_is_worth_a_change(
 
 
 def test_flights_are_flown_with_the_settings_given() -> None:
-    """With more bank in hand the plan turns more widely."""
+    """Asked for 25°, of 30° that the autopilot may use: with 8° in hand the plan turns at 22°."""
     wide = replace(DEFAULT, bank_in_hand=8.0 * DEG, bank_in_hand_share=0.5)
     banks = []
     for settings in (DEFAULT, wide):
         plans = (d for d in fly(fig_6(intent_known=False), plan, settings=settings))
         first = next(d for d in plans if isinstance(d, PlanChanged))
         banks += [max(s.bank for s in first.plan.segments if isinstance(s, TurnSegment))]
-    assert banks == pytest.approx([22.5 * DEG, 17.0 * DEG])
+    assert banks == pytest.approx([25.0 * DEG, 22.0 * DEG])

@@ -13,7 +13,7 @@ from relguide.flying.guidance.commit.proposal import Proposal
 from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.forecast import NO_COURSE
 from relguide.flying.guidance.settings import DEFAULT
-from relguide.flying.pursuit import assignment_of
+from relguide.flying.pursuit import assignment_of, begin_pursuit
 from relguide.flying.scenarios import scenario
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight import marks as at
@@ -59,7 +59,7 @@ def engage(flight: Scenario) -> tuple[Fleet, FlownTrack, Proposal]:
     """A world as it begins, and the path that its pursuer commits to."""
     world = world_of(flight)
     fleet, link = Fleet(world, 1.0 / STEPS), world.links[0]
-    track = fleet.begin_track(link)
+    track = begin_pursuit(world, fleet, link).track
     belief = fleet.belief(0, 1, track, 0.0, True)
     found = propose(belief, assignment_of(world, link), None, plan)
     assert isinstance(found, Proposal)
@@ -77,7 +77,7 @@ def flown_by_seconds(
     states, least, joined = [fleet.states.copy()], [], []
     for second in range(seconds):
         t = float(second)
-        track.add(fleet.body(1), fleet.drift, t)
+        track.add(fleet.body(1), fleet.drift(1), t)
         belief = fleet.belief(0, 1, track, t, True)
         done = act(
             progress, belief.own, belief.limits, course, track.marks, belief.turn_to_come,

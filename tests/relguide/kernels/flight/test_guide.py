@@ -1,6 +1,6 @@
 """One act of guidance: which mode it is in, what it tracks, and when it has joined."""
 
-from math import cos, hypot, pi, sin, tan
+from math import cos, hypot, inf, pi, sin, tan
 
 import numpy as np
 import pytest
@@ -13,6 +13,7 @@ from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Body, Control, Drift
 from relguide.kernels.flight.guide import (
+    BEND_BANK,
     CAPTURE,
     CONVERGE,
     ESCAPE,
@@ -149,19 +150,21 @@ def test_too_near_the_leader_the_shorter_distance_sets_the_speed() -> None:
     assert done.control.tas < V
 
 
-def course(*pieces: tuple[float, float], slot_tas: float = V) -> tuple[Course, FloatArray]:
+def course(
+    *pieces: tuple[float, float], slot_tas: float = V, wind: Drift = STILL
+) -> tuple[Course, FloatArray]:
     """A path from (0, −40 km) north, in pieces of length [m] and curvature [rad/m]."""
     bends = np.array(pieces).reshape(-1, 2)
     path = lay_path(0.0, -40_000.0, 0.0, bends, 240.0, 0.0, LIMITS.max_roll_rate)
-    return Course(path, 0.0, float(path[-1, 0]) + 5_000.0, slot_tas, STILL), path
+    return Course(path, 0.0, float(path[-1, 0]) + 5_000.0, slot_tas, wind, inf), path
 
 
 TURNING = ((5_000.0, 0.0), (8_000.0, 1.0 / 14_000.0))
 
 
 def test_a_path_that_still_turns_is_tracked_in_the_air_mass() -> None:
-    flown, _ = course(*TURNING)
     wind, t = Drift(20.0, -5.0), 10.0
+    flown, _ = course(*TURNING, wind=wind)
     body = level(wind.east * t + 70.0, -40_000.0 + 2_400.0 + wind.north * t)
     done = act_on(body, CONVERGE, marks=FAR_AWAY, course=flown, wind=wind, s=2_400.0, t=t)
     assert (done.progress.mode, done.joined) == (CONVERGE, False)
@@ -231,7 +234,7 @@ def test_a_bend_ahead_is_slowed_down_for_where_it_needs_more_than_the_bank() -> 
     behind = Task(240.0, 9_000.0, 9_000.0, 0.0, 500.0)
     done = act_on(level(0.0, -1_000.0, tas=V), marks=track.marks, task=behind, s=-1_000.0)
     assert done.control.tas == pytest.approx(
-        0.9**0.5 * (G0 * tan(LIMITS.max_bank) * radius) ** 0.5, rel=0.02
+        (G0 * tan(BEND_BANK * LIMITS.max_bank) * radius) ** 0.5, rel=0.02
     )
     wide = leader_marks(120)
     done = act_on(level(0.0, -9_000.0, tas=V), marks=wide, task=behind)

@@ -20,7 +20,7 @@ from relguide.kernels.flight.second import PROGRAMMED, fly_second
 from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG
-from tests.aloft import LIMITS, STEP, STILL, level
+from tests.aloft import LIMITS, STEP, STILL, level, steady
 
 TAS = 200.0
 STARTS = 90.0
@@ -48,7 +48,7 @@ def fly(
         fly_second(
             states, np.array([LIMITS]), np.full(1, PROGRAMMED), np.array([[0.0, 0.0, TAS]]),
             program.rows[np.newaxis], np.full(1, len(pieces)), cursors,
-            np.array([program.held]), np.zeros((1, steps + 1, 2)), float(second), step, trace,
+            np.array([program.held]), steady(STILL, 1, steps), float(second), step, trace,
             np.zeros((1, 4)),
         )  # fmt: skip
         rows.append(trace[0, 1:])

@@ -22,7 +22,7 @@ from relguide.kernels.flight.second import (
     least_between,
 )
 from relguide.units import DEG
-from tests.aloft import LIMITS, STEP, fly, hold, level
+from tests.aloft import LIMITS, STEP, STILL, fly, hold, level, steady
 
 WIND = Drift(15.0, -20.0)
 STEPS = round(1.0 / STEP)
@@ -40,14 +40,13 @@ def test_three_aircraft_fly_as_each_alone() -> None:
     states = np.array(begun)
     trace, tallies = np.zeros((3, STEPS + 1, 7)), np.zeros((3, 4))
     cursors = np.zeros(3, dtype=np.int64)
-    winds = np.tile(np.array(WIND), (3, STEPS + 1, 1))
     for second in range(3):
         trace[2] = recording[second * STEPS : (second + 1) * STEPS + 1]
         fly_second(
             states, np.array([LIMITS] * 3), np.array([GUIDED, PROGRAMMED, RECORDED]),
             np.array([turning(-15.0), hold(0.0, tas=200.0), hold(0.0)]), programs,
-            np.array([0, 1, 0]), cursors, np.array([0.0, 90.0 * DEG, 0.0]), winds, float(second),
-            STEP, trace, tallies,
+            np.array([0, 1, 0]), cursors, np.array([0.0, 90.0 * DEG, 0.0]), steady(WIND, 3),
+            float(second), STEP, trace, tallies,
         )  # fmt: skip
     assert tuple(states[0]) == tuple(fly(turning(-15.0), begun[0], 3.0, wind=WIND)[-1])
     alone = Control(TURN_RATE, turn_rate(200.0, 20.0 * DEG), 200.0)
@@ -56,15 +55,71 @@ def test_three_aircraft_fly_as_each_alone() -> None:
     assert np.array_equal(trace[:, -1], states)
 
 
+def gusted(begun: Body, gust: Drift, *, pilot: int = GUIDED) -> tuple[FloatArray, FloatArray]:
+    """A second in `WIND` whose second half has a gust as well: the winds and where it is."""
+    winds = steady(WIND)
+    winds[0, STEPS // 2 :] += gust
+    trace = np.tile(np.array(begun), (1, STEPS + 1, 1))
+    fly_second(
+        np.array([begun]), np.array([LIMITS]), np.full(1, pilot),
+        np.array([hold(begun.heading / DEG, begun.tas)]), np.zeros((1, 0, 3)),
+        np.zeros(1, np.int64), np.zeros(1, np.int64), np.full(1, begun.heading), winds, 0.0, STEP,
+        trace, np.zeros((1, 4)),
+    )  # fmt: skip
+    return winds[0], trace[0]
+
+
+@pytest.mark.parametrize("pilot", [GUIDED, PROGRAMMED])
+@pytest.mark.parametrize("heading", [0.0, 90.0, 215.0])
+def test_a_gust_changes_the_airspeed_by_minus_what_it_blows_along(
+    heading: float, pilot: int
+) -> None:
+    gust = Drift(3.0, -4.0)
+    _, rows = gusted(level(heading=heading), gust, pilot=pilot)
+    k = STEPS // 2
+    along = gust.east * np.sin(heading * DEG) + gust.north * np.cos(heading * DEG)
+    assert rows[:k, 5] == pytest.approx(240.0)
+    assert rows[k, 5] - rows[k - 1, 5] == pytest.approx(-along, abs=1e-9)
+
+
+@pytest.mark.parametrize("heading", [0.0, 90.0, 215.0])
+def test_in_a_gust_along_its_heading_an_aircraft_keeps_its_speed_over_the_ground(
+    heading: float,
+) -> None:
+    """It then loses what its autothrust brings back of the airspeed: less than 1 m/s²."""
+    ahead = np.sin(heading * DEG), np.cos(heading * DEG)
+    winds, rows = gusted(level(heading=heading), Drift(5.0 * ahead[0], 5.0 * ahead[1]))
+    east = rows[:, 5] * np.sin(rows[:, 2]) + winds[:, 0]
+    north = rows[:, 5] * np.cos(rows[:, 2]) + winds[:, 1]
+    jumps = np.hypot(np.diff(east), np.diff(north))
+    assert np.max(jumps) < 1.0 * STEP
+    moved = np.diff(rows[:, :2], axis=0) / STEP
+    assert moved == pytest.approx(np.column_stack([east, north])[:-1], abs=1.0 * STEP)
+
+
+def test_a_gust_across_carries_an_aircraft_with_it() -> None:
+    _, rows = gusted(level(), Drift(6.0, 0.0))
+    moved = np.diff(rows[:, 0]) / STEP
+    k = STEPS // 2
+    assert rows[:, 5] == pytest.approx(240.0, abs=1e-6)
+    assert moved[:k] == pytest.approx(WIND.east, abs=0.01)
+    assert moved[k:] == pytest.approx(WIND.east + 6.0, abs=0.01)
+
+
+def test_a_recorded_aircraft_flies_as_it_was_recorded_whatever_blows() -> None:
+    _, rows = gusted(level(), Drift(6.0, 3.0), pilot=RECORDED)
+    assert np.array_equal(rows, np.tile(np.array(level()), (STEPS + 1, 1)))
+
+
 def flown_tallies(begun: Body, banks: tuple[float, ...]) -> FloatArray:
     """Half a minute at each bank."""
-    states, tallies, still = np.array([begun]), np.zeros((1, 4)), np.zeros((1, STEPS + 1, 2))
+    states, tallies = np.array([begun]), np.zeros((1, 4))
     for second in range(30 * len(banks)):
         control = turning(banks[second // 30])
         fly_second(
             states, np.array([LIMITS]), np.full(1, GUIDED), np.array([control]),
-            np.zeros((1, 0, 3)), np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1), still,
-            float(second), STEP, np.zeros((1, STEPS + 1, 7)), tallies,
+            np.zeros((1, 0, 3)), np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1),
+            steady(STILL), float(second), STEP, np.zeros((1, STEPS + 1, 7)), tallies,
         )  # fmt: skip
     return tallies[0]
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from relguide.flying.guidance.commit.lead_in import lead_time
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight import path as on
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
@@ -11,12 +12,12 @@ from tests.relguide.flying.guidance.commit.proposals import WINDY, committed_at
 
 
 def test_the_course_of_a_first_plan_begins_where_the_aircraft_is() -> None:
-    belief, _ = observe(WINDY)
+    belief, assignment = observe(WINDY)
     committed = committed_at(Watched(WINDY)).committed
     x, y, heading = on.pose_on(committed.course.path, 0.0)
     assert (x, y, heading) == (belief.own.x, belief.own.y, belief.own.heading)
     assert committed.s == 0.0
-    assert committed.begins == 6.0
+    assert committed.begins == lead_time(assignment, belief.limits.max_roll_rate)
     length = committed.course.path[-1, on.S]
     assert length == pytest.approx(240.0 * committed.due, abs=1e-6)
 
@@ -35,7 +36,7 @@ def test_a_new_course_goes_on_with_the_old_one_and_then_with_the_new_plan() -> N
     s, _ = on.project(old.course.path, *_aloft(watched), 8 * 240.0)
     old = old._replace(s=s)
     new = committed_at(watched, old).committed
-    cut = s + 6.0 * 240.0
+    cut = s + (new.begins - watched.t) * 240.0
     assert new.course.begun == old.course.begun
     assert new.s == s
     for place in np.linspace(s, cut, 25):

@@ -21,8 +21,10 @@ def test_the_lead_in_lasts_until_a_turn_can_be_half_rolled_into() -> None:
     belief, assignment = observe(FIG_6B)
     rate = belief.limits.max_roll_rate
     seconds = lead_time(assignment, rate)
-    assert seconds == 6.0  # 22.5° at two thirds of 3.75°/s, half of it, and the lag
-    assert lead_time(assignment, 0.5 * rate) == 11.0
+    assert (assignment.planned_bank, rate) == pytest.approx((25.0 * DEG, 3.75 * DEG))
+    half, lag = 0.5 * 25.0 / (on.ROLL_SHARE * 3.75), assignment.settings.lag
+    assert seconds - 1.0 < half + lag <= seconds
+    assert lead_time(assignment, 0.5 * rate) - 1.0 < 2.0 * half + lag
     assert lead_in(belief, assignment, None).seconds == seconds
 
 
@@ -49,19 +51,21 @@ def test_nearly_level_it_leads_straight_on() -> None:
     belief, assignment = observe(FIG_6B)
     slight = belief.own._replace(bank=0.9 * DEG)
     lead = lead_in(replace(belief, own=slight), assignment, None)
-    assert lead.pieces.tolist() == [[6.0 * assignment.tas, 0.0]]
+    assert lead.pieces.tolist() == [[lead.seconds * assignment.tas, 0.0]]
     turning = replace(belief, own=belief.own._replace(bank=10.0 * DEG))
     ((_, curvature),) = lead_in(turning, assignment, None).pieces
     assert curvature == pytest.approx(turn_rate(240.0, 10.0 * DEG) / 240.0)
 
 
-@pytest.mark.parametrize(("left_at_s", "seconds"), [(4.6, 6.0), (5.1, 5.1), (5.9, 5.9), (6.1, 6.0)])
-def test_it_ends_with_a_turn_that_ends_in_its_last_second(left_at_s: float, seconds: float) -> None:
+@pytest.mark.parametrize(("early", "cut"), [(1.4, False), (0.9, True), (0.1, True), (-0.1, False)])
+def test_it_ends_with_a_turn_that_ends_in_its_last_second(early: float, cut: bool) -> None:
     """So the next plan may go on turning, and a turn is not put off by bits of the opposite one."""
     watched = Watched(WINDY)
     old = committed_at(watched).committed
     turn = turn_rate(240.0, watched.assignment.planned_bank) / 240.0
-    lengths = 240.0 * np.array([left_at_s, 0.3, 60.0])
+    longest = lead_time(watched.assignment, watched.belief.limits.max_roll_rate)
+    seconds = longest - early if cut else longest
+    lengths = 240.0 * np.array([longest - early, 0.3, 60.0])
     bends = np.column_stack([lengths, [turn, -turn, turn]])
     path = on.lay_path(0.0, 0.0, 0.0, bends, 240.0, 0.0, watched.belief.limits.max_roll_rate)
     course = old.course._replace(path=path)

@@ -13,10 +13,10 @@ def test_the_plan_shown_begins_now_and_ends_as_planned() -> None:
     shown = found.shown
     assert (shown.trajectory.x, shown.trajectory.y) == (belief.own.x, belief.own.y)
     assert shown.time_to_converge == pytest.approx(found.committed.due, abs=1e-6)
-    wind = belief.wind
+    wind, lead = belief.wind, found.committed.begins
     end = shown.trajectory.pose_at(shown.time_to_converge)
     then = found.committed.plan.trajectory.pose_at(found.committed.plan.time_to_converge)
-    assert end.x == pytest.approx(then.x - wind.east * 6.0, abs=1e-3)
-    assert end.y == pytest.approx(then.y - wind.north * 6.0, abs=1e-3)
+    assert end.x == pytest.approx(then.x - wind.east * lead, abs=1e-3)
+    assert end.y == pytest.approx(then.y - wind.north * lead, abs=1e-3)
     assert shown.certificate.holds
-    assert shown.optimality.lower_bound == found.committed.plan.optimality.lower_bound + 6.0
+    assert shown.optimality.lower_bound == found.committed.plan.optimality.lower_bound + lead
