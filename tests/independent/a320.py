@@ -36,12 +36,17 @@ PITCH_KP, PITCH_KI, PITCH_KQ = 0.1, 0.6, 1.0
 THRUST_K = 0.2
 """Throttle for a metre a second of airspeed [s/m]."""
 QUICK = 0.5
-"""The throttle stays above it, and the speed brakes do the rest: from idle these engines take 7 s."""
+"""The throttle stays above it and speed brakes do the rest: from idle these engines take 7 s."""
 MODERATE = {"windspeed_at_20ft_AGL-fps": 50.0, "severity": 4.0}
 """Moderate turbulence of MIL-F-8785C, as JSBSim names it …"""
 MODERATE_GUSTS: MetrePerSecond = 2.0
 """… and σ of its gusts at FL246, over ten minutes of them."""
 MIL = 3.0
+
+# JSBSim says which version it is, and all that it has read
+ERRORS = jsbsim.DefaultLogger()
+ERRORS.set_min_level(jsbsim.LogLevel.ERROR)
+jsbsim.set_logger(ERRORS)
 
 
 class A320:
@@ -119,12 +124,14 @@ class A320:
 class A320Fleet(Fleet):
     """The aircraft of a world in flight; those that are guided are JSBSim's."""
 
+    kind: type[A320] = A320
+
     def __init__(self, world: World, step: Second, seed: int = 0) -> None:
         """All aircraft where they begin; where there are gusts, JSBSim makes its own."""
         super().__init__(world, step, seed)
         turbulence = seed if world.air.gusts > 0.0 else None
         self.flown = {
-            i: A320(self.body(i), aircraft.altitude, turbulence)
+            i: self.kind(self.body(i), aircraft.altitude, turbulence)
             for i, aircraft in enumerate(world.aircraft)
             if isinstance(aircraft.pilot, Guided)
         }
