@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 
 from relguide.campaign.case import Case
 from relguide.campaign.starts import Draw
-from relguide.flying.air import MAX_GUSTS
+from relguide.flying.air import GUSTS, ISA_DEVIATION
+from relguide.flying.surveillance import LATENCY, LOSS_SHARE
 from relguide.planning.inputs import Range
 from relguide.planning.limits import BANK, DISTANCE, SPACING, TAS, WIND
 from relguide.planning.situation import Situation, Wind, wind_from
@@ -147,7 +148,7 @@ def _with(case: Case, **changes: Any) -> Case:
 KEYS: Mapping[str, Key] = {
     "altitude_m": Key(Range(0.0, 15_000.0, "m"), _scenario("altitude"), "pressure altitude"),
     "weight_kg": Key(Range(1e3, 1e6, "kg"), _scenario("pursuer_weight"), "of the pursuer"),
-    "isa_deviation_k": Key(Range(-60.0, 60.0, "K"), _scenario("isa_deviation"), "warmer than ISA"),
+    "isa_deviation_k": Key(ISA_DEVIATION, _scenario("isa_deviation"), "warmer than ISA"),
     "pursuer_tas_mps": Key(TAS, _pursuer("tas"), "V_P"),
     "max_bank_deg": Key(BANK, _pursuer("max_bank", DEG), "bank that the autopilot may use"),
     "leader_tas_mps": Key(TAS, _leader_tas, "V_L", True),
@@ -169,10 +170,10 @@ KEYS: Mapping[str, Key] = {
         FACTOR, _factor("zero_lift_drag", "induced_drag"), "true over believed, without brakes"
     ),
     "speed_brake_factor": Key(FACTOR, _factor("speed_brake_drag"), "true over believed"),
-    "gusts_mps": Key(Range(0.0, MAX_GUSTS, "m/s"), _gusts, "σ along and across, Dryden"),
+    "gusts_mps": Key(GUSTS, _gusts, "σ along and across, Dryden"),
     "nacp": Key(Range(1, 11, "of NACp"), _seen("nacp", round), "category of ADS-B positions"),
     "nacv": Key(Range(1, 4, "of NACv"), _seen("nacv", round), "category of ADS-B velocities"),
-    "latency_s": Key(Range(0.0, 5.0, "s"), _seen("latency"), "of reports"),
-    "loss_share": Key(Range(0.0, 0.5, ""), _seen("loss_share"), "of reports"),
+    "latency_s": Key(LATENCY, _seen("latency"), "of reports"),
+    "loss_share": Key(LOSS_SHARE, _seen("loss_share"), "of reports"),
 }
 """By name, each with its unit."""

@@ -163,7 +163,7 @@ def _fly_again(chosen: argparse.Namespace, folder: Path, word: str, *, record: b
     if record:
         documents = recorder.record(documents, file)
     flight = summarize(documents)
-    result = figures(flight.ended[0]) | {"plans_by": flight.plans_by}
+    result = figures(flight) | {"plans_by": flight.plans_by}
     if table:
         from relguide.cli.flight_tables import print_flight
 

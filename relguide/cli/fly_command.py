@@ -11,15 +11,16 @@ from typing import TYPE_CHECKING
 
 from relguide.cli.output import DONE, FAILED, add_form, for_people, say, write_json
 from relguide.cli.shared_options import add_planner, seconds
-from relguide.cli.situation_file import open_input, read_situation
+from relguide.cli.situation_file import open_input, read_flight
+from relguide.flying.guidances import GUIDANCES
 from relguide.learn.planners import make_planner
+from relguide.planning.inputs import expect_within
 from relguide.planning.limits import SPACING
 
 if TYPE_CHECKING:
     from relguide.contract.orders import Order
     from relguide.flying.flight import Scenario
     from relguide.flying.tracks import RecordedTrack
-    from relguide.planning.situation import Situation
 
 PURPOSE = "fly a scenario, a situation or behind a recorded track"
 EXAMPLES = """
@@ -32,6 +33,8 @@ EXAMPLES = """
     relguide fly quickstart:SVA127               behind one of the package traffic's
     relguide fly random --seed 7                 a flight drawn from that number
     relguide fly fig_6b --spacing 60             once joined, a minute behind
+    relguide fly fig_6b --gusts 1.5              in light turbulence
+    relguide fly fig_6a --guidance trail         by a baseline, which does not plan
     relguide fly fig_6b --orders orders.jsonl    the leader does as it is ordered, a line an order:
         {"t_s": 60, "intent_known": false}
         {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
@@ -95,7 +98,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="once joined, keep this time behind the leader; default: keep D",
     )
     parser.add_argument(
+        "--gusts", metavar="MPS", type=_gusts, help="σ of gusts [m/s]; 1.5 is light turbulence"
+    )
+    parser.add_argument(
         "--settings", metavar="FILE", help="constants of guidance, a TOML table [guidance]"
+    )
+    parser.add_argument(
+        "--guidance",
+        choices=GUIDANCES,
+        default="relguide",
+        help="; ".join(f"{name}: {does}" for name, does in GUIDANCES.items())
+        + "; default: relguide. All others neither plan nor look at d_min",
     )
     add_form(parser)
     add_planner(parser)
@@ -118,10 +131,18 @@ def run(chosen: argparse.Namespace) -> int:
     scenario = _following_for(scenario, chosen.after_joining)
     if chosen.spacing is not None:
         scenario = replace(scenario, spacing=chosen.spacing)
+    if chosen.gusts is not None:
+        scenario = replace(scenario, gusts=chosen.gusts)
     settings = DEFAULT if chosen.settings is None else load_settings(chosen.settings)
     planner = make_planner(chosen.planner)
     flown = partial(
-        fly, scenario, planner, seed=chosen.seed, settings=settings, planner_name=chosen.planner
+        fly,
+        scenario,
+        planner,
+        seed=chosen.seed,
+        settings=settings,
+        guidance=chosen.guidance,
+        planner_name=chosen.planner,
     )
     for _ in islice(flown(sample_period=1.0), LOADING):
         pass
@@ -142,7 +163,7 @@ def run(chosen: argparse.Namespace) -> int:
     )
     if flight.broken:
         raise ValueError(flight.broken)
-    result = figures(flight.ended[0]) | {
+    result = figures(flight) | {
         "plans_by": flight.plans_by,
         "wall_s": perf_counter() - started,
     }
@@ -184,7 +205,6 @@ def _scenario(name: str, seed: int, callsign: str) -> "Scenario":
     from relguide.flying.scenarios import (
         SCENARIOS,
         no_scenario,
-        own_scenario,
         random_scenario,
         scenario,
         scenario_behind,
@@ -198,11 +218,11 @@ def _scenario(name: str, seed: int, callsign: str) -> "Scenario":
         raise ValueError(f"--callsign is for a file of recorded flights, and {name} is none.")
     path = Path(name)
     if path.suffix.lower() == ".json" or name == "-" or path.is_file():
-        situation = _situation(path if name != "-" else None)
+        own = _own(path if name != "-" else None)
         title = (
             "The situation of standard input" if name == "-" else f"The situation of {path.name}"
         )
-        return replace(own_scenario(situation), title=title)
+        return replace(own, title=title)
     if name == "random":
         return random_scenario(seed)
     if name not in SCENARIOS:
@@ -224,13 +244,13 @@ def _recorded(name: str, callsign: str) -> "RecordedTrack | None":
     return None
 
 
-def _situation(path: Path | None) -> "Situation":
-    """The situation of a file, or of standard input."""
+def _own(path: Path | None) -> "Scenario":
+    """The situation of a file, or of standard input, to be flown."""
     from relguide.contract.refusal import ContractError
     from relguide.flying.recordings.files import FORMS
 
     try:
-        return read_situation("-" if path is None else str(path))[0]
+        return read_flight("-" if path is None else str(path))
     except ContractError as refused:
         if path is None or path.suffix.lower() == ".json":
             raise
@@ -261,6 +281,17 @@ def _following(text: str) -> float:
 
 def _spacing(text: str) -> float:
     return seconds(text, 1.0, SPACING.high)
+
+
+def _gusts(text: str) -> float:
+    from relguide.flying.air import GUSTS
+
+    try:
+        return expect_within("gusts", float(text), *GUSTS)
+    except ValueError:
+        low, high, unit, _ = GUSTS
+        said = f"must lie in {low:g} … {high:g} {unit}, not {text}"
+        raise argparse.ArgumentTypeError(said) from None
 
 
 def _recording(text: str) -> str:

@@ -31,7 +31,7 @@ def run(chosen: argparse.Namespace) -> int:
     whole = bool(flight.ended) and not flight.broken
     result: dict[str, Any] = {"simulated_s": flight.last_time}
     if flight.ended:
-        result = figures(flight.ended[0]) | {"plans_by": flight.plans_by}
+        result = figures(flight) | {"plans_by": flight.plans_by}
     if table:
         from relguide.cli.flight_tables import print_flight
 

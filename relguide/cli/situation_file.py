@@ -8,6 +8,7 @@ from typing import IO, TYPE_CHECKING
 
 if TYPE_CHECKING:
     from relguide.contract.bodies import Anchor, NamedSituationBody
+    from relguide.flying.flight import Scenario
     from relguide.planning.situation import Situation
 
 
@@ -41,3 +42,20 @@ def read_situation(file: str) -> tuple["Situation", "Anchor", "NamedSituationBod
     with open_input(file) as stream:
         body = parse(NamedSituationBody, stream.read())
     return *situation_from_body(body), body
+
+
+def read_flight(file: str) -> "Scenario":
+    """Read a situation, and in what air and how well seen it is flown.
+
+    Args:
+        file: its path; - for standard input.
+
+    Raises:
+        ValueError: if it is none, or cannot be flown, saying what would be right.
+    """
+    from relguide.contract.flown_bodies import FlownSituationBody, scenario_from_body
+    from relguide.contract.refusal import parse
+
+    with open_input(file) as stream:
+        body = parse(FlownSituationBody, stream.read())
+    return scenario_from_body(body)[0]

@@ -124,9 +124,11 @@ def _is_of_first(document: PlanChanged, started: list[FlightStarted]) -> bool:
     return any(document.ident == link.pursuer for link in started[0].links[:1])
 
 
-def figures(ended: FlightEnded) -> dict[str, Any]:
-    """How the flight of the first link went, under the names of the contract."""
+def figures(flight: FlightSummary) -> dict[str, Any]:
+    """How the flight of the first link went, under the names of the contract; it has ended."""
+    (ended,) = flight.ended
     result = ended.results[0]
+    said = [event for event in flight.events if event.ident == result.ident]
     return {
         "joined": result.joined,
         "join_time_s": result.join_time,
@@ -151,6 +153,22 @@ def figures(ended: FlightEnded) -> dict[str, Any]:
                 "announced_s": loss.announced[0] if loss.announced else None,
             }
             for loss in result.losses
+        ],
+        "alerts": [
+            {
+                "t_s": alert.t,
+                "level": alert.level,
+                "reason": alert.subject,
+                "message": alert.message,
+                "cleared": alert.cleared,
+            }
+            for alert in said
+            if isinstance(alert, Alert)
+        ],
+        "unables": [
+            {"t_s": unable.t, "reason": unable.reason, "message": unable.message}
+            for unable in said
+            if isinstance(unable, Unable)
         ],
     }
 

@@ -32,7 +32,8 @@ from pydantic import (
     model_validator,
 )
 
-from relguide.contract.bodies import Intent, SituationBody, Tas
+from relguide.contract.bodies import Intent, Tas
+from relguide.contract.flown_bodies import FlownSituationBody
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.aircraft_documents import ReferenceCard
@@ -327,8 +328,8 @@ class ScenarioFlightRequest(_HowToFly):
 class SituationFlightRequest(_HowToFly):
     """Start a flight from a situation of your own."""
 
-    situation: SituationBody
-    """As `POST /plans` takes it."""
+    situation: FlownSituationBody
+    """As `POST /plans` takes it, and what only a flight depends on."""
     flown_intent: Intent | None = None
     """What the leader flies if that is not what it declares in `situation`: it breaks its word."""
 

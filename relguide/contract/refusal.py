@@ -16,6 +16,8 @@ MAX_LISTED = 20
 """How many defects a refusal lists."""
 MAX_QUOTED = 40
 """How many characters of a refused value are quoted back."""
+FLOWN_ONLY = ("air", "believed_air", "surveillance")
+"""Fields of situations that are flown, which plans do not have."""
 MEANT = 0.7
 """How much an unknown field is like the one that is meant, from 0 to 1."""
 TAG = "#"
@@ -247,6 +249,11 @@ def _say_meant(error: Any, missing: Sequence[tuple[Any, ...]]) -> str:
     if error["type"] != "extra_forbidden":
         return ""
     *where, name = error["loc"]
+    if name in FLOWN_ONLY:
+        return (
+            "belongs in the situation of a flight (relguide fly FILE, POST /api/v1/flights): "
+            "no plan depends on it."
+        )
     beside = [str(last) for *place, last in missing if place == where]
     meant = get_close_matches(str(name)[:MAX_QUOTED], beside, 1, MEANT)
     return f"is not a field of the contract: did you mean {meant[0]}?" if meant else ""

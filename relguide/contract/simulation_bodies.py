@@ -6,6 +6,8 @@ from pydantic import Field, RootModel
 
 from relguide.contract.messages import FlightRequest
 from relguide.contract.refusal import ContractError, Strict
+from relguide.flying.aircraft_documents import AlertLevel
+from relguide.flying.documents import AlertSubject, UnableReason
 
 MAX_SIMULATIONS = 32
 """Most flights in one request."""
@@ -31,6 +33,32 @@ class SimulationLoss(Strict):
     """Whose doing it was."""
     announced_s: float | None
     """When it was announced; null if it was not."""
+
+
+class SimulationAlert(Strict):
+    """An alert that was given to the pursuer's crew, or its end."""
+
+    t_s: float
+    """When."""
+    level: AlertLevel
+    """How grave it is, or was."""
+    reason: AlertSubject
+    """What it is about."""
+    message: str
+    """The same in a sentence."""
+    cleared: bool
+    """Whether the alert ends."""
+
+
+class SimulationUnable(Strict):
+    """One thing that guidance could not do."""
+
+    t_s: float
+    """When the crew was told."""
+    reason: UnableReason
+    """Why."""
+    message: str
+    """The same in a sentence."""
 
 
 class SimulationAnswer(Strict):
@@ -81,6 +109,10 @@ class SimulationAnswer(Strict):
     """Time it took."""
     losses: list[SimulationLoss]
     """Times at which the minimum separation was lost."""
+    alerts: list[SimulationAlert]
+    """Given to the pursuer's crew, and their ends."""
+    unables: list[SimulationUnable]
+    """What guidance could not do."""
 
 
 def expect_unwatched(flights: SimulationRequest) -> None:

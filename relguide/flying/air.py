@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from math import exp, log, sqrt
 
 from relguide.flying.wind_profile import WindProfile
-from relguide.planning.inputs import expect, expect_within
+from relguide.planning.inputs import Range, expect, expect_within
 from relguide.planning.reprs import as_code
 from relguide.planning.wind import CALM, Wind
 from relguide.units import G0, Metre, MetrePerSecond, Second
@@ -40,10 +40,10 @@ LOWEST_ALTITUDE: Metre = -1_000.0
 """Lowest accepted altitude [m]: airports below sea level in high pressure."""
 HIGHEST_ALTITUDE: Metre = 20_000.0
 """Highest accepted altitude [m]: above it the standard atmosphere grows warmer."""
-MAX_ISA_DEVIATION = 60.0
-"""Largest accepted |ΔT| [K]: beyond the coldest and the hottest air on record."""
-MAX_GUSTS: MetrePerSecond = 10.0
-"""Largest accepted σ of gusts [m/s]: severe turbulence of MIL-F-8785C has 6.4 m/s."""
+ISA_DEVIATION = Range(-60.0, 60.0, "K")
+"""Accepted ΔT: beyond the coldest and the hottest air on record."""
+GUSTS = Range(0.0, 10.0, "m/s")
+"""Accepted σ of gusts: severe turbulence of MIL-F-8785C has 6.4 m/s."""
 
 _TROPOPAUSE_TEMPERATURE = SEA_LEVEL_TEMPERATURE - LAPSE_RATE * TROPOPAUSE
 _PRESSURE_EXPONENT = G0 / (GAS_CONSTANT * LAPSE_RATE)
@@ -70,11 +70,9 @@ class Air:
     def __post_init__(self) -> None:
         """Refuse what no atmosphere has."""
         expect("wind", self.wind, Wind)
-        deviation = expect_within(
-            "isa_deviation", self.isa_deviation, -MAX_ISA_DEVIATION, MAX_ISA_DEVIATION, "K"
-        )
+        deviation = expect_within("isa_deviation", self.isa_deviation, *ISA_DEVIATION)
         object.__setattr__(self, "isa_deviation", deviation)
-        gusts = expect_within("gusts", self.gusts, 0.0, MAX_GUSTS, "m/s")
+        gusts = expect_within("gusts", self.gusts, *GUSTS)
         object.__setattr__(self, "gusts", gusts)
         if self.profile is not None:
             expect("profile", self.profile, WindProfile)

@@ -15,6 +15,7 @@ from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.flying.envelope import envelope_fault
 from relguide.flying.guidance.settings import DEFAULT, Settings
+from relguide.flying.guidances import Guidance, expect_guidance
 from relguide.flying.orders import Command
 from relguide.flying.orders import IntentKnown as IntentKnown
 from relguide.flying.orders import LeaderData as LeaderData
@@ -24,7 +25,9 @@ from relguide.flying.orders import PursuerHeading as PursuerHeading
 from relguide.flying.orders import SetEngagement as SetEngagement
 from relguide.flying.orders import no_commands as no_commands
 from relguide.flying.simulation import simulate, whole_steps
+from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
+from relguide.flying.wind_profile import WindProfile
 from relguide.flying.world import ALTITUDES, Aircraft, Declared, Guided, Link, Recorded, World
 from relguide.planning.inputs import (
     expect,
@@ -37,8 +40,8 @@ from relguide.planning.inputs import (
 )
 from relguide.planning.limits import SPACING
 from relguide.planning.plan import Plan, Planner, plan
-from relguide.planning.situation import IntentPiece, Situation, TurnTo
-from relguide.units import DEG, Kilogram, Metre, Radian, Second
+from relguide.planning.situation import CALM, IntentPiece, Situation, TurnTo
+from relguide.units import DEG, Kilogram, Metre, MetrePerSecond, Radian, Second
 
 TEXTS = ("name", "title", "description", "pursuer_ident", "leader_ident", "leader_type")
 """Fields of a scenario that people read."""
@@ -81,6 +84,14 @@ class Scenario:
     """Of both [m]; FL310."""
     isa_deviation: float = 0.0
     """Temperature above the standard atmosphere's [K]."""
+    profile: WindProfile | None = None
+    """The wind by altitude that blows in place of the situation's."""
+    gusts: MetrePerSecond = 0.0
+    """σ of gusts along and across an aircraft's heading [m/s]."""
+    believed_air: Air | None = None
+    """What guidance believes of the air at the start; the truth, if left out."""
+    surveillance: Surveillance = EXACT
+    """How the pursuer sees its leader."""
     spacing: Second = 0.0
     """Time behind the leader to keep once joined [s]; 0 to keep D."""
     duration_limit: Second = 3600.0
@@ -101,6 +112,9 @@ class Scenario:
             )
         expect_within("altitude", self.altitude, *ALTITUDES)
         expect_within("spacing", self.spacing, *SPACING)
+        if self.believed_air is not None:
+            expect("believed_air", self.believed_air, Air)
+        expect("surveillance", self.surveillance, Surveillance)
         if number("duration_limit", self.duration_limit) <= 0.0:
             raise ValueError(f"duration_limit must be above 0 s, not {self.duration_limit}.")
         if number("after_joining", self.after_joining) < 0.0:
@@ -121,7 +135,12 @@ class Scenario:
     @property
     def air(self) -> Air:
         """The air it is flown in."""
-        return Air(wind=self.situation.wind, isa_deviation=self.isa_deviation)
+        return Air(
+            wind=self.situation.wind if self.profile is None else CALM,
+            profile=self.profile,
+            isa_deviation=self.isa_deviation,
+            gusts=self.gusts,
+        )
 
 
 def fly(
@@ -134,6 +153,7 @@ def fly(
     seed: int = 0,
     settings: Settings = DEFAULT,
     engagement: Engagement = "engaged",
+    guidance: Guidance = "relguide",
     planner_name: str | None = None,
 ) -> Iterator[Document]:
     """Fly a scenario and say what happens, in order of time.
@@ -149,6 +169,7 @@ def fly(
             10 % of them, unknown to its guidance.
         settings: of guidance.
         engagement: how far guidance is engaged at the start; commands change it.
+        guidance: relguide's, or a baseline, which asks no planner.
         planner_name: who makes the plans, as `FlightStarted` says; if left out, a planner other
             than `plan` is asked once more, to learn what name its plans give it.
 
@@ -159,11 +180,21 @@ def fly(
     expect_function("planner", planner)
     expect_function("commands", commands)
     expect("settings", settings, Settings)
+    expect_guidance(guidance)
     seed, step = expect_whole("seed", seed, 0), number("step", step)
     whole_steps(1.0, step)
     whole_steps(number("sample_period", sample_period), step)
     return _fly(
-        scenario, planner, commands, step, sample_period, seed, settings, engagement, planner_name
+        scenario,
+        planner,
+        commands,
+        step,
+        sample_period,
+        seed,
+        settings,
+        engagement,
+        guidance,
+        planner_name,
     )
 
 
@@ -176,10 +207,12 @@ def _fly(
     seed: int,
     settings: Settings,
     engagement: Engagement,
+    guidance: Guidance,
     planner_name: str | None,
 ) -> Iterator[Document]:
     if planner_name is None:
-        planner_name = _name_of(planner, scenario.situation)
+        by_plans = guidance == "relguide"
+        planner_name = _name_of(planner, scenario.situation) if by_plans else guidance
     yield from simulate(
         world_of(scenario, settings, seed),
         planner,
@@ -193,6 +226,7 @@ def _fly(
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
         engagement=engagement,
+        guidance=guidance,
     )
 
 
@@ -261,6 +295,8 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
             ),
         ),
         air=scenario.air,
+        believed_air=scenario.believed_air,
+        surveillance=scenario.surveillance,
         settings=settings,
     )
 

@@ -155,8 +155,15 @@ def no_scenario(name: str, known: Collection[str]) -> str:
     return f"There is no scenario {name!r}{asked}; there are {', '.join(known)}."
 
 
-def own_scenario(situation: Situation, *, intent_known: bool = True) -> Scenario:
+def own_scenario(
+    situation: Situation, *, intent_known: bool = True, isa_deviation: float = 0.0
+) -> Scenario:
     """A situation of one's own, flown by an A300 at the level nearest to FL310 where it can.
+
+    Args:
+        situation: where both begin, and the leader's intent.
+        intent_known: whether the pursuer knows it.
+        isa_deviation: temperature above the standard atmosphere's [K].
 
     Raises:
         ValueError: if there is no level at which it can fly so fast or bank so much, in a sentence.
@@ -168,7 +175,8 @@ def own_scenario(situation: Situation, *, intent_known: bool = True) -> Scenario
         description="A situation that was sent.",
         situation=situation,
         intent_known=intent_known,
-        altitude=_level(situation),
+        altitude=_level(situation, isa_deviation),
+        isa_deviation=isa_deviation,
     )
 
 
@@ -188,10 +196,10 @@ def random_scenario(seed: int) -> Scenario:
     )
 
 
-def _level(situation: Situation) -> Metre:
+def _level(situation: Situation, isa_deviation: float = 0.0) -> Metre:
     """Where the pursuer can fly its own speed and, if there is such a level, its leader's."""
     own, can = situation.pursuer.tas, airframe(DEFAULT_TYPE)
-    air, bank = Air(wind=situation.wind), situation.pursuer.max_bank
+    air, bank = Air(isa_deviation=isa_deviation), situation.pursuer.max_bank
     try:
         slowest = min(own, situation.leader.tas)
         return level_for(can, air, slowest=slowest, fastest=own, bank=bank)

@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from relguide.planning.inputs import expect_whole, expect_within, truth
+from relguide.planning.inputs import Range, expect_whole, expect_within, truth
 from relguide.planning.reprs import as_code
 from relguide.units import FT, NM, Metre, MetrePerSecond, Second
 
@@ -39,6 +39,16 @@ passing."""
 LONG_LOSS = 0.1
 """Share of losses that last longer than one report: a receiver near Toulouse had 0.1 % of gaps
 above 2.3 s, the longest 6.3 s."""
+LATENCY = Range(0.0, 5.0, "s")
+"""Accepted latencies."""
+INTERVAL = Range(1.0, 30.0, "s")
+"""Accepted intervals between reports."""
+LOSS_SHARE = Range(0.0, 0.5, "")
+"""Accepted shares of lost reports."""
+BURST = Range(0.0, 60.0, "s")
+"""Accepted longest times without a report."""
+ALTITUDE_STEP = Range(0.0, 100.0, "m")
+"""Accepted steps of altitudes."""
 HISTORY = 6
 """So many seconds of the truth are kept, for the longest latency."""
 
@@ -79,14 +89,14 @@ class Surveillance:
                 raise ValueError(f"{name} must lie in 1 … {len(bounds)}, not {value}.")
             object.__setattr__(self, name, value)
         truth("compensated", self.compensated)
-        for name, (low, high, unit) in {
-            "latency": (0.0, 5.0, "s"),
-            "interval": (1.0, 30.0, "s"),
-            "loss_share": (0.0, 0.5, ""),
-            "burst": (0.0, 60.0, "s"),
-            "altitude_step": (0.0, 100.0, "m"),
+        for name, accepted in {
+            "latency": LATENCY,
+            "interval": INTERVAL,
+            "loss_share": LOSS_SHARE,
+            "burst": BURST,
+            "altitude_step": ALTITUDE_STEP,
         }.items():
-            number = expect_within(name, getattr(self, name), low, high, unit)
+            number = expect_within(name, getattr(self, name), *accepted)
             object.__setattr__(self, name, number)
 
     @property

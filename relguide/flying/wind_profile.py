@@ -9,15 +9,13 @@ from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
 
-from relguide.planning.inputs import expect, expect_within
+from relguide.planning.inputs import Range, expect, expect_within
 from relguide.planning.reprs import as_code
 from relguide.planning.wind import Wind, wind_from
 from relguide.units import DEG, FT, KT, Metre
 
-LOWEST: Metre = -1_000.0
-"""Lowest accepted level [m]."""
-HIGHEST: Metre = 50_000.0
-"""Highest accepted level [m]: forecasts reach far above all aircraft."""
+LEVELS = Range(-1_000.0, 50_000.0, "m")
+"""Accepted levels: forecasts reach far above all aircraft."""
 ALTITUDES = {"altitude_m": 1.0, "altitude_ft": FT, "flight_level": 100.0 * FT}
 """Columns of a file that may give the altitude, and their unit [m]."""
 SPEEDS = {"speed_mps": 1.0, "speed_kt": KT}
@@ -62,7 +60,7 @@ class WindProfile:
                 raise ValueError("levels must be pairs of an altitude [m] and a Wind.")
             expect("wind of a level", level[1], Wind)
         levels = sorted(
-            (WindLevel(expect_within("altitude", altitude, LOWEST, HIGHEST, "m"), wind)
+            (WindLevel(expect_within("altitude", altitude, *LEVELS), wind)
              for altitude, wind in self.levels),
             key=lambda level: level.altitude,
         )  # fmt: skip
@@ -155,7 +153,7 @@ def _reader(columns: list[str], separator: str, path: str) -> Callable[[dict[str
             assert speed is not None
             direction = _number(cells, "from_deg", separator) * DEG
             wind = wind_from(direction, _number(cells, speed, separator) * SPEEDS[speed])
-        return WindLevel(expect_within("altitude", height, LOWEST, HIGHEST, "m"), wind)
+        return WindLevel(expect_within("altitude", height, *LEVELS), wind)
 
     return read
 

@@ -386,6 +386,21 @@ def test_a_situation_of_ones_own_can_be_flown(client: TestClient) -> None:
     client.delete(started.headers["location"])
 
 
+def test_the_air_and_what_is_seen_belong_to_flights(client: TestClient) -> None:
+    rough = {
+        **EXAMPLE,
+        "air": {"gusts_mps": 1.5},
+        "believed_air": {"wind": {"from_deg": 200, "speed_mps": 5}},
+        "surveillance": {"kind": "adsb", "nacp": 8},
+    }
+    started = client.post("/api/v1/flights", json={"situation": rough, "paused": True})
+    assert started.status_code == 201
+    client.delete(started.headers["location"])
+    told = is_problem(client.post("/api/v1/plans", json=rough), 422, "/api/v1/plans")
+    assert [error["path"] for error in told["errors"]] == ["air", "believed_air", "surveillance"]
+    assert "belongs in the situation of a flight" in told["errors"][0]["message"]
+
+
 @pytest.mark.parametrize(
     "body",
     [{"scenario": "fig_99"}, {"scenario": "ideal", "rate": 0.5}, {"rate": 1}, {"scenario": 6}],

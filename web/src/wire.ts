@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-4eaa8de219a0";
+export const PROTOCOL = "relguide-f1d48433680d";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -129,6 +129,14 @@ export type Command =
   | LeaderDataCommand
   | PursuerHeadingCommand
   | SetEngagementCommand;
+
+/** The air as it is, or as it is believed to be. */
+export interface AirBody {
+  wind?: WindBody | null;
+  profile?: WindLevelBody[] | null;
+  gusts_mps?: number;
+  isa_deviation_k?: number;
+}
 
 /** Who an aircraft is. */
 export interface AircraftCard {
@@ -408,6 +416,19 @@ export interface FlightStatus {
   scene_url: string;
   seed: number;
   version: string;
+}
+
+/** A situation to be flown. */
+export interface FlownSituationBody {
+  pursuer: LocalPursuer | GeodeticPursuer;
+  leader: LocalLeader | GeodeticLeader;
+  slot_distance_m: number;
+  min_separation_m: number;
+  wind?: WindBody;
+  id?: string | number;
+  air?: AirBody | null;
+  believed_air?: AirBody | null;
+  surveillance?: SurveillanceBody | null;
 }
 
 /**
@@ -951,7 +972,7 @@ export interface SituationFlightRequest {
   engagement?: Engagement;
   seed?: number;
   spacing_time_s?: number | null;
-  situation: SituationBody;
+  situation: FlownSituationBody;
   flown_intent?: IntentPiece[] | null;
 }
 
@@ -972,6 +993,17 @@ export interface StraightSegment {
   start: PathPoint;
   /** Where it ends. */
   end: PathPoint;
+}
+
+/** How well the pursuer sees its leader. */
+export interface SurveillanceBody {
+  kind: "exact" | "adsb";
+  nacp?: number;
+  nacv?: number;
+  latency_s?: number;
+  interval_s?: number;
+  loss_share?: number;
+  burst_s?: number;
 }
 
 /** A frame of the stream: what happened in a flight since the last one. */
@@ -1059,6 +1091,13 @@ export interface WindBody {
 /** Uniform wind as reports give it. */
 export interface WindCard {
   /** Where it comes from, clockwise from north [rad]. JSON name: from_deg. */
+  from_deg: number;
+  speed_mps: number;
+}
+
+/** The wind at one altitude. */
+export interface WindLevelBody {
+  altitude_m: number;
   from_deg: number;
   speed_mps: number;
 }

@@ -2,12 +2,8 @@
 
 from dataclasses import replace
 
-from relguide.contract.bodies import (
-    UNANCHORED,
-    Anchor,
-    intent_from_body,
-    situation_from_body,
-)
+from relguide.contract.bodies import UNANCHORED, Anchor, intent_from_body
+from relguide.contract.flown_bodies import scenario_from_body
 from relguide.contract.messages import (
     FlightRequest,
     ScenarioFlightRequest,
@@ -15,7 +11,7 @@ from relguide.contract.messages import (
 )
 from relguide.contract.refusal import ContractError
 from relguide.flying.flight import Scenario
-from relguide.flying.scenarios import own_scenario, scenario
+from relguide.flying.scenarios import scenario
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.situation import IntentPiece, Situation
 
@@ -58,14 +54,14 @@ def _find_scenario(name: str) -> Scenario:
 
 def _own_scenario(wanted: SituationFlightRequest) -> tuple[Scenario, Anchor]:
     try:
-        situation, anchor = situation_from_body(wanted.situation)
+        own, anchor = scenario_from_body(wanted.situation)
+        if wanted.flown_intent is None:
+            return own, anchor
+        flown = with_intent(own.situation, intent_from_body(wanted.flown_intent))
+        declared = own.situation.leader.intent
+        return replace(own, situation=flown, declared_intent=declared), anchor
     except ContractError as error:
         under = [(f"situation.{path}".rstrip("."), said) for path, said in error.problems]
         raise ContractError(under) from None
-    try:
-        if wanted.flown_intent is None:
-            return own_scenario(situation), anchor
-        flown = with_intent(situation, intent_from_body(wanted.flown_intent))
-        return replace(own_scenario(flown), declared_intent=situation.leader.intent), anchor
     except ValueError as error:  # no level at which the aircraft could fly it, in a sentence
         raise ContractError([("situation.pursuer", str(error))]) from None

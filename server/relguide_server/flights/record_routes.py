@@ -8,7 +8,8 @@ from fastapi import APIRouter, Depends, Path, Query, Request
 from pydantic import AwareDatetime, BeforeValidator, RootModel
 from starlette.responses import Response, StreamingResponse
 
-from relguide.contract.bodies import UNANCHORED, Anchor, SituationBody, situation_from_body
+from relguide.contract.bodies import UNANCHORED, Anchor, situation_from_body
+from relguide.contract.flown_bodies import FlownSituationBody
 from relguide.contract.messages import FlightStatus, from_wire
 from relguide.contract.recorder import VERSION
 from relguide.contract.refusal import ContractError, parse
@@ -357,7 +358,7 @@ async def _parts(
 def _anchor(request: dict[str, Any]) -> Anchor:
     if "situation" not in request:
         return UNANCHORED
-    return situation_from_body(SituationBody.model_validate(request["situation"]))[1]
+    return situation_from_body(FlownSituationBody.model_validate(request["situation"]))[1]
 
 
 def _plane(request: dict[str, Any], lat_deg: float | None, lon_deg: float | None) -> LocalPlane:

@@ -230,7 +230,8 @@ def simulate(wanted: FlightRequest, planner: str | Planner) -> bytes:
         sample_period=1.0,
         planner_name=planner if isinstance(planner, str) else None,
     )
-    (ended,) = summarize(documents).ended
+    flight = summarize(documents)
+    (ended,) = flight.ended
     about = {
         "scenario": name,
         "seed": wanted.seed,
@@ -238,7 +239,7 @@ def simulate(wanted: FlightRequest, planner: str | Planner) -> bytes:
         "reason": ended.reason,
         "message": ended.message,
     }
-    return orjson.dumps(about | figures(ended) | {"wall_s": perf_counter() - started})
+    return orjson.dumps(about | figures(flight) | {"wall_s": perf_counter() - started})
 
 
 def _answered(given: dict[str, Any], started: float) -> PlanReply:

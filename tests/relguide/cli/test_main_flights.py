@@ -29,6 +29,8 @@ FIGURES = {
     "track_nm",
     "simulated_s",
     "losses",
+    "alerts",
+    "unables",
     "over_optimum_s",
     "along_error_m",
     "across_error_m",
@@ -129,6 +131,13 @@ def test_the_good_part_of_a_damaged_recording_is_printed(
 
 
 @pytest.mark.slow
+def test_a_baseline_joins_without_a_plan(run: Run) -> None:
+    code, out, _ = run("fly", write(NEAR), "--guidance", "trail", "--json")
+    figures = json.loads(out)
+    assert (code, figures["joined"], figures["plans_by"]) == (0, True, {})
+
+
+@pytest.mark.slow
 def test_fly_without_a_plan_fails(run: Run) -> None:
     code, out, err = run("fly", write(UNREACHABLE), "--json")
     assert code == 1
@@ -184,6 +193,35 @@ def test_a_spacing_that_cannot_be_kept_and_settings_that_are_not_there_are_refus
     assert code == 2
     assert sentence in err
     assert "Traceback" not in err
+
+
+def test_the_air_and_what_is_seen_are_read_from_the_situation_of_a_flight(run: Run) -> None:
+    rough = {
+        "air": {"gusts_mps": 1.5},
+        "believed_air": {"wind": {"from_deg": 270, "speed_mps": 5}},
+        "surveillance": {"kind": "adsb", "nacp": 8, "latency_s": 1.0},
+    }
+    file = write(NEAR | rough)
+    code, out, _ = run("fly", file, "--json", "--record", "rough.jsonl")
+    figures = json.loads(out)
+    assert (code, figures["joined"]) == (0, True)
+    samples = [d for d in replay("rough.jsonl") if isinstance(d, Sample)]
+    assert samples[1].guidance[0].margin > 0.0
+    assert all({"t_s", "reason", "message"} <= set(said) for said in figures["alerts"])
+    code, out, err = run("plan", file)
+    assert (code, out) == (2, "")
+    assert "air: belongs in the situation of a flight (relguide fly FILE" in err
+
+
+def test_gusts_are_asked_for_on_the_command_line(run: Run) -> None:
+    calm, rough = (
+        json.loads(run("fly", write(NEAR), "--json", *more)[1]) for more in ((), ("--gusts", "1.5"))
+    )
+    assert rough["joined"]
+    assert rough["across_error_m"] > calm["across_error_m"]
+    code, _, err = run("fly", write(NEAR), "--gusts", "11")
+    assert code == 2
+    assert "must lie in 0 … 10 m/s, not 11" in err
 
 
 @pytest.mark.slow

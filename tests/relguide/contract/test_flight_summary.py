@@ -69,8 +69,8 @@ def test_a_good_flight_has_no_failures() -> None:
     flight = summarize([STARTED, SAMPLE, ENDED])
     assert (flight.documents, flight.last_time, flight.broken) == (3, 720.0, "")
     assert failures(flight) == ()
-    assert figures(ENDED)["heading_swing_deg"] == pytest.approx(400.0)
-    assert figures(ENDED)["track_nm"] == pytest.approx(10.0)
+    assert figures(flight)["heading_swing_deg"] == pytest.approx(400.0)
+    assert figures(flight)["track_nm"] == pytest.approx(10.0)
 
 
 def test_a_lost_separation_is_a_failure() -> None:
@@ -114,7 +114,8 @@ def test_alerts_and_losses_are_in_the_story_and_forecasts_are_not() -> None:
 def test_losses_are_given_with_when_they_were_announced() -> None:
     said = Loss(t=50.0, separation=9_000.0, cause="The leader slowed down.", announced=(20.0,))
     silent = replace(said, t=90.0, announced=())
-    assert figures(end_of_flight(replace(RESULT, losses=(said, silent))))["losses"] == [
+    lost = summarize([STARTED, end_of_flight(replace(RESULT, losses=(said, silent)))])
+    assert figures(lost)["losses"] == [
         {
             "t_s": 50.0,
             "separation_m": 9_000.0,
@@ -127,4 +128,21 @@ def test_losses_are_given_with_when_they_were_announced() -> None:
             "cause": "The leader slowed down.",
             "announced_s": None,
         },
+    ]
+
+
+def test_what_the_crew_was_told_is_given_with_when_and_why() -> None:
+    others = rare_documents(5.0, "C", "B")
+    found = figures(summarize([STARTED, *rare_documents(5.0, "A", "B"), *others, ENDED]))
+    assert found["alerts"] == [
+        {
+            "t_s": 5.0,
+            "level": "caution",
+            "reason": "separation",
+            "message": "The leader slows down: 4.8 NM in 45 s.",
+            "cleared": False,
+        }
+    ]
+    assert found["unables"] == [
+        {"t_s": 5.0, "reason": "speed", "message": "The leader is too slow to follow."}
     ]

@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 
 from relguide.flying.air import (
     HIGHEST_ALTITUDE,
+    ISA_DEVIATION,
     LOWEST_ALTITUDE,
-    MAX_ISA_DEVIATION,
     STANDARD_AIR,
     TROPOPAUSE,
     Air,
@@ -167,4 +167,4 @@ def test_air_that_is_none_is_refused() -> None:
         Air(wind=Wind(east=5.0), profile=profile)
     with pytest.raises(ValueError, match="profile must be a WindProfile, not 12"):
         Air(profile=12)  # type: ignore[arg-type]
-    assert Air(isa_deviation=MAX_ISA_DEVIATION).density(11_000.0) > 0.0
+    assert Air(isa_deviation=ISA_DEVIATION.high).density(11_000.0) > 0.0

@@ -1,0 +1,114 @@
+"""Situations to fly: the air, what is believed of it, and how well the leader is seen."""
+
+from math import radians
+from typing import Any
+
+import pytest
+
+from relguide.contract.bodies import SituationBody, situation_from_json
+from relguide.contract.flown_bodies import FlownSituationBody, scenario_from_body
+from relguide.contract.refusal import ContractError, parse
+from relguide.flying.air import Air
+from relguide.flying.flight import Scenario, world_of
+from relguide.flying.scenarios import own_scenario
+from relguide.flying.surveillance import EXACT, Surveillance
+from relguide.flying.wind_profile import WindLevel, WindProfile
+from relguide.planning.situation import wind_from
+from tests.bodies import BODY
+
+CALM_BODY = {name: value for name, value in BODY.items() if name != "wind"}
+WEST = {"from_deg": 270, "speed_mps": 15}
+HIGH = {"altitude_m": 9_000, "from_deg": 270, "speed_mps": 30}
+LOW = {"altitude_m": 0, "from_deg": 270, "speed_mps": 10}
+
+
+def read(**more: Any) -> Scenario:
+    return scenario_from_body(parse(FlownSituationBody, {**CALM_BODY, **more}))[0]
+
+
+def test_without_the_new_fields_it_is_flown_as_before() -> None:
+    situation, anchor = situation_from_json(BODY)
+    assert scenario_from_body(parse(FlownSituationBody, BODY)) == (own_scenario(situation), anchor)
+
+
+def test_the_air_has_wind_gusts_and_a_temperature() -> None:
+    own = read(air={"wind": WEST, "gusts_mps": 1.5, "isa_deviation_k": 10})
+    wind = wind_from(radians(270.0), 15.0)
+    assert own.situation.wind == wind
+    assert own.air == Air(wind=wind, gusts=1.5, isa_deviation=10.0)
+    assert read(wind=WEST, air={"gusts_mps": 1.5}).situation.wind == wind
+
+
+def test_a_profile_blows_in_place_of_one_wind() -> None:
+    own = read(air={"profile": [HIGH, LOW]})
+    levels = tuple(
+        WindLevel(float(level["altitude_m"]), wind_from(radians(270.0), float(level["speed_mps"])))
+        for level in (LOW, HIGH)
+    )
+    assert own.profile == WindProfile(levels=levels)
+    assert own.situation.wind == own.profile.at(own.altitude)
+    assert world_of(own).air.profile == own.profile
+
+
+def test_what_is_believed_is_the_truth_but_for_what_is_told() -> None:
+    assert read(wind=WEST).believed_air is None
+    air = {"profile": [HIGH, LOW], "isa_deviation_k": 10}
+    own = read(air=air, believed_air={"wind": WEST})
+    assert own.believed_air == Air(wind=wind_from(radians(270.0), 15.0), isa_deviation=10.0)
+    colder = read(air=air, believed_air={"isa_deviation_k": -5})
+    assert colder.believed_air == Air(profile=own.profile, isa_deviation=-5.0)
+    other = read(wind=WEST, believed_air={"profile": [HIGH]}).believed_air
+    assert other is not None
+    assert other.wind_at(0.0, 0.0, 0.0, 0.0).speed == pytest.approx(30.0)
+    assert world_of(own).believed_air == own.believed_air
+
+
+def test_the_leader_is_seen_exactly_or_by_reports() -> None:
+    assert read().surveillance == EXACT
+    assert read(surveillance={"kind": "exact"}).surveillance == EXACT
+    reports = {
+        "kind": "adsb", "nacp": 8, "nacv": 1, "latency_s": 1.0, "interval_s": 2.0,
+        "loss_share": 0.1, "burst_s": 8.0,
+    }  # fmt: skip
+    seen = Surveillance(
+        kind="adsb", nacp=8, nacv=1, latency=1.0, interval=2.0, loss_share=0.1, burst=8.0
+    )
+    assert world_of(read(surveillance=reports)).surveillance == seen
+
+
+@pytest.mark.parametrize(
+    ("more", "path", "said"),
+    [
+        ({"wind": WEST, "air": {"wind": {**WEST, "speed_mps": 16}}}, "air.wind", "another than"),
+        ({"wind": WEST, "air": {"profile": [HIGH]}}, "air.profile", "leave out the situation's"),
+        ({"air": {"wind": WEST, "profile": [HIGH]}}, "air.wind", "must be left out"),
+        ({"believed_air": {"wind": WEST, "profile": [HIGH]}}, "believed_air.wind", "left out"),
+        ({"air": {"profile": [HIGH, HIGH]}}, "air.profile", "one wind at 9000 m"),
+        ({"air": {"profile": []}}, "air.profile", "at least 1"),
+        ({"air": {"gusts_mps": 11}}, "air.gusts_mps", "0 … 10 m/s"),
+        ({"air": {"isa_deviation_k": -61}}, "air.isa_deviation_k", "-60 … 60 K"),
+        ({"air": {"temperature_k": 5}}, "air.temperature_k", "is not a field"),
+        ({"surveillance": {"nacp": 8}}, "surveillance.kind", "is missing"),
+        ({"surveillance": {"kind": "radar"}}, "surveillance.kind", "must be"),
+        ({"surveillance": {"kind": "adsb", "nacp": 12}}, "surveillance.nacp", "at most 11"),
+        ({"surveillance": {"kind": "adsb", "nacp": 8.5}}, "surveillance.nacp", "whole number"),
+        ({"surveillance": {"kind": "adsb", "burst_s": 61}}, "surveillance.burst_s", "60 s"),
+    ],
+)
+def test_what_is_wrong_is_refused_by_its_path(more: dict[str, Any], path: str, said: str) -> None:
+    with pytest.raises(ContractError) as refused:
+        read(**more)
+    ((found, sentence),) = refused.value.problems
+    assert found == path
+    assert said in sentence
+
+
+def test_the_same_wind_may_be_given_twice() -> None:
+    twice = read(wind=WEST, air={"wind": {**WEST, "from_deg": -90}})
+    assert twice == read(wind=WEST)
+
+
+@pytest.mark.parametrize("name", ["air", "believed_air", "surveillance"])
+def test_plans_say_that_flights_read_it(name: str) -> None:
+    with pytest.raises(ContractError, match=f"{name}: belongs in the situation of a flight"):
+        parse(SituationBody, {**BODY, name: {}})
