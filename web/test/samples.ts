@@ -68,6 +68,7 @@ export function pairAt(t: number, changes: Partial<PairSample> = {}): PairSample
     alert: "none",
     leader_age_s: 0,
     engagement: "engaged",
+    margin_m: 0,
     ...changes,
   };
 }

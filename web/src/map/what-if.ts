@@ -108,6 +108,7 @@ function sampleOf(situation: Situation, slot: PathPoint, opens: number): PairSam
     alert: "none",
     leader_age_s: 0,
     engagement: "designated",
+    margin_m: 0,
   };
 }
 

@@ -157,6 +157,7 @@ function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): P
     alert: "none",
     leader_age_s: 0,
     engagement: "engaged",
+    margin_m: 0,
   };
 }
 
