@@ -5,6 +5,7 @@ name = "wind"
 seed = 7
 flights = 1000
 family = "declared"             # or a list: a row of the report each
+guidance = "trail"              # a baseline; relguide's if it is left out
 
 [vary]                          # drawn for each flight
 leader_tas_share = { uniform = [0.6, 0.98] }
@@ -32,12 +33,13 @@ from relguide.campaign.distribution import (
 )
 from relguide.campaign.families import FAMILIES
 from relguide.campaign.keys import KEYS
+from relguide.flying.guidances import Guidance, expect_guidance
 from relguide.planning.inputs import Range, expect_whole, text
 from relguide.units import Second
 
 LONGEST = Range(1.0, 86_400.0, "s")
 FOLLOWED = Range(0.0, 86_400.0, "s")
-HEADS = ("name", "seed", "flights", "family", "limit_s", "after_joining_s")
+HEADS = ("name", "seed", "flights", "family", "guidance", "limit_s", "after_joining_s")
 """Keys of [campaign]."""
 
 
@@ -97,6 +99,7 @@ class Campaign:
     """Of a flight; that of its family if it is left out."""
     after_joining: Second | None = None
     """The same of the time to follow."""
+    guidance: Guidance = "relguide"
     vary: Mapping[str, Distribution]
     sweep: Mapping[str, tuple[float, ...]]
 
@@ -123,6 +126,8 @@ class Campaign:
             "family": list(self.families),
         }
         more = {"limit_s": self.limit, "after_joining_s": self.after_joining}
+        if self.guidance != "relguide":
+            about["guidance"] = self.guidance
         return {
             "campaign": about | {key: value for key, value in more.items() if value is not None},
             "vary": {key: as_table(made) for key, made in self.vary.items()},
@@ -174,6 +179,8 @@ def read_campaign(content: Mapping[str, Any], *, name: str = "campaign") -> Camp
     for key in (*vary, *sweep):
         if KEYS[key].leader_is_drawn and "recorded" in families:
             raise ValueError(f"{key} says nothing of recorded leaders: leave it out.")
+    guidance = about.get("guidance", "relguide")
+    expect_guidance(guidance)
     return Campaign(
         name=text("campaign.name", about.get("name", name)),
         seed=expect_whole("campaign.seed", about.get("seed", 0), 0),
@@ -181,6 +188,7 @@ def read_campaign(content: Mapping[str, Any], *, name: str = "campaign") -> Camp
         families=families,
         limit=_seconds(about, "limit_s", LONGEST),
         after_joining=_seconds(about, "after_joining_s", FOLLOWED),
+        guidance=guidance,
         vary={key: read_distribution(f"vary.{key}", vary[key], KEYS[key].limits) for key in vary},
         sweep={key: _values(f"sweep.{key}", sweep[key], KEYS[key].limits) for key in sweep},
     )

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from relguide.flying.flight import DeclaredLeader, Scenario, world_of
+from relguide.flying.guidances import Guidance
 from relguide.flying.orders import Command
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.world import World
@@ -32,6 +33,7 @@ class Case:
     """σ along and across [m/s]."""
     surveillance: Surveillance = EXACT
     """How the leader is seen."""
+    guidance: Guidance = "relguide"
 
     @property
     def leader_as_declared(self) -> bool:
@@ -69,6 +71,8 @@ class Case:
             f"leader = {scenario.leader_ident!r}",
             *(f"at {t:.0f} s: {command!r}" for t, command in self.orders),
         ]
+        if self.guidance != "relguide":
+            lines.append(f"guidance = {self.guidance!r}")
         if self.factors:
             lines.append(f"factors = {dict(self.factors)!r}")
         if self.wind_error != CALM or self.isa_error:

@@ -40,7 +40,13 @@ def draw_flight(campaign: Campaign, flight: int) -> DrawnFlight:
     case = draw(kind.base, number, campaign.seed)
     scenario = replace(case.scenario, name=point.family, title=f"{campaign.name} {flight}")
     noise = int(stream(kind.base, number, campaign.seed, "noise").integers(2**32))
-    case = replace(case, family=point.family, scenario=scenario, noise_seed=noise)
+    case = replace(
+        case,
+        family=point.family,
+        scenario=scenario,
+        noise_seed=noise,
+        guidance=campaign.guidance,
+    )
     drawn = {**kind.vary, **campaign.vary}
     values: dict[str, float] = {}
     for name, key in KEYS.items():

@@ -4,6 +4,10 @@ from dataclasses import dataclass
 
 from relguide.flying.aircraft_documents import AircraftSample, GuidanceSample
 from relguide.flying.documents import Sample
+from relguide.units import Second
+
+EVERY: Second = 1.0
+"""Between samples: guidance acts as often."""
 
 
 @dataclass(frozen=True)

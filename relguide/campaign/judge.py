@@ -1,14 +1,15 @@
 """Flying a case, and its documents as one row of figures: all that a campaign knows of flying."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from math import hypot, inf
+from math import hypot
 from time import thread_time
 
 import numpy as np
 
 from relguide.campaign.case import Case
 from relguide.campaign.evasion import AHEAD, best_turn
-from relguide.campaign.instant import Instant, instant
+from relguide.campaign.instant import EVERY, instant
+from relguide.campaign.losses import losses_of, warnings_of
 from relguide.campaign.paths import (
     Floats,
     circles,
@@ -21,8 +22,8 @@ from relguide.campaign.paths import (
     turns_flown,
     without_corrections,
 )
-from relguide.campaign.row import Loss, Row
-from relguide.flying.aircraft_documents import GuidanceSample, HeadingReference, LinkResult
+from relguide.campaign.row import Row
+from relguide.flying.aircraft_documents import GuidanceSample, HeadingReference
 from relguide.flying.documents import (
     Alert,
     Document,
@@ -39,15 +40,6 @@ from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.plan import plan
 from relguide.planning.situation import Situation, Wind
 from relguide.units import DEG, Metre, Second
-
-EVERY: Second = 1.0
-"""Between samples: guidance acts as often."""
-ROUNDING: Metre = 1.0
-"""d_min less this is kept: a slot may lie on d_min itself."""
-WARNED: Second = 180.0
-"""An alert longer ago does not announce a loss, nor does one that was cleared."""
-SAME: Second = 2.0
-"""So near each other in time, a loss found here and one of a document are one."""
 
 
 def fly_case(case: Case) -> Row:
@@ -70,6 +62,7 @@ def documents_of(case: Case, sample_period: Second = EVERY) -> Iterator[Document
         seed=case.noise_seed,
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
+        guidance=case.guidance,
     )
 
 
@@ -99,8 +92,8 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     planned = end.planned_time if engaged else None
     promised = end.promised if engaged else None
     joined = end.join_time if end.joined else None
-    warnings = tuple(_warnings(documents))
-    losses = tuple(_losses(situation.min_separation, samples, end, warnings))
+    warnings = tuple(warnings_of(documents))
+    losses = tuple(losses_of(situation.min_separation, samples, end, warnings))
     paths = [(document.t, document.plan.segments) for document in changed]
     flown = list(turns_flown(paths, last.t if joined is None else joined))
     turns = without_corrections(angle for angle, _ in flown)
@@ -192,58 +185,6 @@ def _join_over_last_promise(changed: Sequence[PlanChanged], joined: Second | Non
     if joined is None or not made or made[-1].t >= joined:
         return None
     return (joined - made[-1].t) / made[-1].promised
-
-
-def _warnings(documents: Iterable[Document]) -> Iterator[tuple[Second, Second]]:
-    """From when to when a crew was warned of what a loss of d_min may follow from."""
-    since: float | None = None
-    for document in documents:
-        match document:
-            case Alert(t=t, subject="separation", cleared=True):
-                if since is not None:
-                    yield since, t
-                since = None
-            case Alert(t=t, subject="separation", level="caution" | "warning"):
-                since = t if since is None else since
-            case Unable(t=t):
-                yield t, t + WARNED
-            case _:
-                pass
-    if since is not None:
-        yield since, inf
-
-
-def _losses(
-    min_separation: Metre,
-    samples: list[Instant],
-    end: LinkResult,
-    warnings: tuple[tuple[Second, Second], ...],
-) -> Iterator[Loss]:
-    """Each time below d_min."""
-    limit = min_separation - ROUNDING
-    runs: list[list[Instant]] = []
-    inside = False
-    for sample in samples:
-        below = sample.guidance.separation < limit
-        if below and not inside:
-            runs.append([])
-        if below:
-            runs[-1].append(sample)
-        inside = below
-    if not runs and end.least_separation < limit:  # between two samples
-        runs.append([min(samples, key=lambda s: s.guidance.separation)])
-    for run in runs:
-        begun = run[0].t
-        before = [begun - since for since, until in warnings if since <= begun <= until]
-        causes = [loss.cause for loss in end.losses if abs(loss.t - begun) <= SAME]
-        yield Loss(
-            t_s=begun,
-            separation_m=min(sample.guidance.separation for sample in run),
-            seconds=len(run) * EVERY,
-            mode=run[0].guidance.mode,
-            cause=causes[0] if causes else "",
-            announced_s=max(before) if before else None,
-        )
 
 
 def _heading_jump(documents: Iterable[Document]) -> float:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from relguide.cli.output import DONE, FAILED, add_form, for_people, say, write_json
 from relguide.cli.shared_options import add_planner, seconds
 from relguide.cli.situation_file import open_input, read_flight
+from relguide.flying.guidances import GUIDANCES
 from relguide.learn.planners import make_planner
 from relguide.planning.inputs import expect_within
 from relguide.planning.limits import SPACING
@@ -33,6 +34,7 @@ EXAMPLES = """
     relguide fly random --seed 7                 a flight drawn from that number
     relguide fly fig_6b --spacing 60             once joined, a minute behind
     relguide fly fig_6b --gusts 1.5              in light turbulence
+    relguide fly fig_6a --guidance trail         by a baseline, which does not plan
     relguide fly fig_6b --orders orders.jsonl    the leader does as it is ordered, a line an order:
         {"t_s": 60, "intent_known": false}
         {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
@@ -101,6 +103,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--settings", metavar="FILE", help="constants of guidance, a TOML table [guidance]"
     )
+    parser.add_argument(
+        "--guidance",
+        choices=GUIDANCES,
+        default="relguide",
+        help="; ".join(f"{name}: {does}" for name, does in GUIDANCES.items())
+        + "; default: relguide. All others neither plan nor look at d_min",
+    )
     add_form(parser)
     add_planner(parser)
 
@@ -127,7 +136,13 @@ def run(chosen: argparse.Namespace) -> int:
     settings = DEFAULT if chosen.settings is None else load_settings(chosen.settings)
     planner = make_planner(chosen.planner)
     flown = partial(
-        fly, scenario, planner, seed=chosen.seed, settings=settings, planner_name=chosen.planner
+        fly,
+        scenario,
+        planner,
+        seed=chosen.seed,
+        settings=settings,
+        guidance=chosen.guidance,
+        planner_name=chosen.planner,
     )
     for _ in islice(flown(sample_period=1.0), LOADING):
         pass

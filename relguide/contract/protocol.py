@@ -81,6 +81,6 @@ def protocol(body: str) -> str:
 
 PROTOCOL = protocol(typescript_body(docs=False))
 """Sub-protocol of the stream: it changes whenever a shape of the contract does."""
-STREAM = "relguide-stream-1"
+STREAM = "relguide-stream-2"
 """Another name of it, for programs: it changes only when something that it had is no more, or means
 something else. What is new may be added under the same name."""

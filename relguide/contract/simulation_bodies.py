@@ -98,17 +98,17 @@ class SimulationAnswer(Strict):
     """Flown until joined."""
     simulated_s: float
     """Time flown."""
+    over_optimum_s: float | None
+    """By how much it joined later than the fastest plan from its start would; null where there is
+    none, or the leader is recorded."""
+    along_error_m: float
+    """Largest error of the spacing along the route while it followed."""
+    across_error_m: float
+    """Largest distance beside the route while it followed."""
     wall_s: float
     """Time it took."""
     losses: list[SimulationLoss]
     """Times at which the minimum separation was lost."""
-    over_optimum_s: float | None
-    """How much later it joined than the fastest plan from its start; null if it did not join, or
-    if there is no such plan."""
-    along_error_m: float
-    """Largest distance from D along the leader's route while following."""
-    across_error_m: float
-    """Largest distance from the leader's route while following."""
     alerts: list[SimulationAlert]
     """Given to the pursuer's crew, and their ends."""
     unables: list[SimulationUnable]

@@ -7,6 +7,7 @@ Guidance sees a `Belief`, never the world.
 
 from dataclasses import replace
 from math import cos, hypot, inf, sin
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,7 +30,7 @@ from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.flight.energy import idle_deceleration
 from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits, limits_at
 from relguide.kernels.flight.gusts import STATE, gust_steps
-from relguide.kernels.flight.program import STRAIGHT
+from relguide.kernels.flight.program import STRAIGHT, fly_program
 from relguide.kernels.flight.second import (
     GUIDED,
     PROGRAMMED,
@@ -51,8 +52,27 @@ NEAR_HEADING: Radian = 5.0 * DEG
 """So near the heading that it declared, a leader is on it but for what is not known of the wind
 [rad]."""
 NO_PROGRAM = np.zeros((0, 3))
+ROLLS_BEFORE: Second = 8.0
+"""An aircraft begins to roll so long before a declared turn at the earliest [s]."""
+DECLARED_STEPS = 4
+"""Of a second, in which a leader is flown on as it declared."""
 EDGE: Metre = 2_000.0
 """So near the edge of the plane a flight ends: before plans are refused for it [m]."""
+
+
+class Flown(NamedTuple):
+    """What an aircraft declared, and how far it has come."""
+
+    program: Program
+    cursor: int
+    """The piece being flown; beyond the last on the final leg."""
+
+    def is_straight(self, t: Second) -> bool:
+        """Whether it flies straight, and does not roll into a turn yet."""
+        rows, k = self.program.rows, self.cursor
+        if k == len(rows):
+            return True
+        return bool(rows[k, 0] == STRAIGHT and rows[k, 1] - t > ROLLS_BEFORE)
 
 
 class Fleet:
@@ -280,6 +300,34 @@ class Fleet:
             leader_age=0.0 if seen is None else seen.age,
             spread=CERTAIN if seen is None else seen.spread,
         )
+
+    def declared_by(self, j: int, declared: "Fleet | None") -> "Flown | None":
+        """What aircraft j declared and how far it has come; `None` where it declared nothing."""
+        source, k = (self, j) if declared is None else (declared, 0)
+        if source.pilots[k] != PROGRAMMED:
+            return None
+        return Flown(source.declared[k], int(source.cursors[k]))
+
+    def fly_declared(
+        self, j: int, declared: "Flown", body: Body, cursor: int, wind: Drift, t: Second
+    ) -> tuple[Body, int]:
+        """Aircraft j a second on from flight time t, as it declared, and the piece it then flies.
+
+        Args:
+            j: which.
+            declared: gives its program.
+            body: it, at t.
+            cursor: the piece it flies then.
+            wind: as it is believed.
+            t: flight time [s].
+        """
+        dt, program = 1.0 / DECLARED_STEPS, declared.program
+        for k in range(DECLARED_STEPS):
+            body, cursor = fly_program(
+                program.rows, cursor, program.held, body, self.believed_limits[j], wind,
+                t + k * dt, dt, body.tas,
+            )  # fmt: skip
+        return Body(*body), cursor
 
     def as_declared(self, j: int, intent: tuple[IntentPiece, ...]) -> "Fleet":
         """Aircraft j alone, as it declared that it would fly."""

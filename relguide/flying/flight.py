@@ -15,6 +15,7 @@ from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.flying.envelope import envelope_fault
 from relguide.flying.guidance.settings import DEFAULT, Settings
+from relguide.flying.guidances import Guidance, expect_guidance
 from relguide.flying.orders import Command
 from relguide.flying.orders import IntentKnown as IntentKnown
 from relguide.flying.orders import LeaderData as LeaderData
@@ -152,6 +153,7 @@ def fly(
     seed: int = 0,
     settings: Settings = DEFAULT,
     engagement: Engagement = "engaged",
+    guidance: Guidance = "relguide",
     planner_name: str | None = None,
 ) -> Iterator[Document]:
     """Fly a scenario and say what happens, in order of time.
@@ -167,6 +169,7 @@ def fly(
             10 % of them, unknown to its guidance.
         settings: of guidance.
         engagement: how far guidance is engaged at the start; commands change it.
+        guidance: relguide's, or a baseline, which asks no planner.
         planner_name: who makes the plans, as `FlightStarted` says; if left out, a planner other
             than `plan` is asked once more, to learn what name its plans give it.
 
@@ -177,11 +180,21 @@ def fly(
     expect_function("planner", planner)
     expect_function("commands", commands)
     expect("settings", settings, Settings)
+    expect_guidance(guidance)
     seed, step = expect_whole("seed", seed, 0), number("step", step)
     whole_steps(1.0, step)
     whole_steps(number("sample_period", sample_period), step)
     return _fly(
-        scenario, planner, commands, step, sample_period, seed, settings, engagement, planner_name
+        scenario,
+        planner,
+        commands,
+        step,
+        sample_period,
+        seed,
+        settings,
+        engagement,
+        guidance,
+        planner_name,
     )
 
 
@@ -194,10 +207,12 @@ def _fly(
     seed: int,
     settings: Settings,
     engagement: Engagement,
+    guidance: Guidance,
     planner_name: str | None,
 ) -> Iterator[Document]:
     if planner_name is None:
-        planner_name = _name_of(planner, scenario.situation)
+        by_plans = guidance == "relguide"
+        planner_name = _name_of(planner, scenario.situation) if by_plans else guidance
     yield from simulate(
         world_of(scenario, settings, seed),
         planner,
@@ -211,6 +226,7 @@ def _fly(
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
         engagement=engagement,
+        guidance=guidance,
     )
 
 

@@ -126,6 +126,8 @@ def _cause(one: Pursuit, t: Second) -> str:
     """Why separation was lost, in a sentence."""
     if t - one.view.changed_at < RECENT and one.view.changed:
         return one.view.changed
+    if one.memory.forecast is None:
+        return "Nothing looked ahead."
     if one.memory.mode in ("heading", "escape"):
         return "There was no path that kept it."
     return "What was flown is not what was forecast."

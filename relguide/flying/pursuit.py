@@ -1,12 +1,13 @@
 """One pursuer and its leader in flight: what a closed loop keeps of them from second to second."""
 
 from dataclasses import dataclass, replace
+from math import hypot
 from typing import NamedTuple
 
 import numpy as np
 
 from relguide.flying.aircraft_documents import Loss
-from relguide.flying.belief import SPARE, Belief, FlownTrack, coasting
+from relguide.flying.belief import SEEMS, SPARE, Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
 from relguide.flying.fleet import Fleet, dependable_deceleration, limits_of
 from relguide.flying.guidance.assignment import Assignment
@@ -15,9 +16,14 @@ from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
 from relguide.flying.logbook import PairNames
 from relguide.flying.perception import Perceived, Perception
 from relguide.flying.world import Link, World
-from relguide.kernels.flight.flight_records import Drift
-from relguide.units import Metre, MetrePerSecond, Radian, Second
+from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.flight.flight_records import Body, Drift
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
+AS_DECLARED: Metre = 300.0
+"""Reports of a leader in a turn may lag so far behind what it declared [m]."""
+TURNED_AS_DECLARED: Radian = 15.0 * DEG
+"""… and so far behind its heading [rad]."""
 MARGIN_STEP: Metre = 25.0
 """A margin that changes by less stays [m]."""
 
@@ -102,6 +108,9 @@ class Pursuit:
     """Whether the separation is below d_min."""
     braked: tuple[MetrePerSecond, ...] = ()
     """The airspeeds of the last seconds, all of them with braking asked for in earnest [m/s]."""
+    reckoned: tuple[Body, int] | None = None
+    """The leader by what it declared, since it last flew straight, and the piece it flies; `None`
+    where that is no guide."""
     seen_at: Second = 0.0
     """When that was, flight time [s]."""
     doubted: int = 0
@@ -116,11 +125,34 @@ class Pursuit:
             return coasting(self.heard, t, fleet.body(self.pursuer))
         seen = self.seen
         if self.perception is not None and (seen is None or t > self.seen_at):
-            seen = fleet.see(self.perception, self.pursuer, self.leader, t)
+            seen = self._see(fleet, self.perception, t)
             self.seen, self.seen_at = seen, t
         return fleet.belief(
             self.pursuer, self.leader, self.track, t, self.known, self.declared, seen
         )
+
+    def _see(self, fleet: Fleet, perception: Perception, t: Second) -> Perceived:
+        """What is perceived now; in a declared turn the leader as it declared.
+
+        Reports of a turn lag behind it, and a heading that is two seconds old puts the leg behind
+        the turn aside by half a kilometre. From the straight before it the turn is known as well
+        as that straight is.
+        """
+        seen = fleet.see(perception, self.pursuer, self.leader, t)
+        declared = fleet.declared_by(self.leader, self.declared) if self.known else None
+        if declared is None or (seen.leader.bank == 0.0 and declared.is_straight(t)):
+            self.reckoned = None if declared is None else (seen.leader, declared.cursor)
+            return seen
+        if self.reckoned is None:
+            return seen
+        body, cursor = fleet.fly_declared(self.leader, declared, *self.reckoned, seen.wind, t - 1.0)
+        self.reckoned = body, cursor
+        off = hypot(body.x - seen.leader.x, body.y - seen.leader.y)
+        turned = abs(wrap_signed(body.heading - seen.leader.heading))
+        if off > AS_DECLARED + SEEMS * seen.spread.place or turned > TURNED_AS_DECLARED:
+            self.reckoned = None
+            return seen
+        return seen._replace(leader=body)
 
 
 def keep_margin(one: Pursuit, belief: Belief) -> None:

@@ -23,7 +23,8 @@ from relguide.flying.documents import (
     Unable,
 )
 from relguide.flying.fleet import Fleet
-from relguide.flying.guidance.advise import advise
+from relguide.flying.guidance.choice import Guide, guide_by
+from relguide.flying.guidances import Guidance, expect_guidance
 from relguide.flying.leader_watch import (
     doubt_leader,
     expected_route,
@@ -62,6 +63,7 @@ def simulate(
     until: Second = 3600.0,
     after_joining: Second = 120.0,
     engagement: Engagement = "engaged",
+    guidance: Guidance = "relguide",
 ) -> Iterator[Document]:
     """Fly a world and say what happens, in order of time.
 
@@ -78,6 +80,8 @@ def simulate(
         until: the flight ends here at the latest [s].
         after_joining: how long it goes on once all pursuers have joined [s].
         engagement: how far guidance is engaged at the start.
+        guidance: of all pursuers: relguide's, or a baseline, which asks no planner and is named in
+            its place.
 
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.
@@ -97,15 +101,18 @@ def simulate(
     if after_joining < 0.0:
         raise ValueError(f"after_joining must be 0 s or more, not {after_joining:g} s.")
     expect_engagement(engagement)
-    start = _start_document(world, planner_name, scenario, title, step, seed)
+    expect_guidance(guidance)
+    guide = guide_by(guidance, planner)
+    by = planner_name if guidance == "relguide" else guidance
+    start = _start_document(world, by, scenario, title, step, seed)
     return _simulate(
-        world, planner, start, commands, step, a_sample, until, after_joining, engagement
+        world, guide, start, commands, step, a_sample, until, after_joining, engagement
     )
 
 
 def _simulate(
     world: World,
-    planner: Planner,
+    guide: Guide,
     start: FlightStarted,
     commands: Callable[[Second], Iterable[Command]],
     step: Second,
@@ -124,7 +131,7 @@ def _simulate(
         for command in commands(t):
             yield from _obey(command, fleet, pursuits, t)
         for one in pursuits:
-            yield from _guide(one, fleet, planner, t)
+            yield from _guide(one, fleet, guide, t)
         end = _end(pursuits, fleet, t, until, after_joining)
         if end is not None:
             yield from _finish(pursuits, fleet, t, *end)
@@ -209,7 +216,7 @@ def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) ->
     yield from said
 
 
-def _guide(one: Pursuit, fleet: Fleet, planner: Planner, t: Second) -> Iterator[Document]:
+def _guide(one: Pursuit, fleet: Fleet, guide: Guide, t: Second) -> Iterator[Document]:
     """One act of guidance, and what is new of the leader."""
     learn_braking(one, fleet)
     yield from doubt_leader(one, fleet, t)
@@ -217,12 +224,12 @@ def _guide(one: Pursuit, fleet: Fleet, planner: Planner, t: Second) -> Iterator[
     one.track.add(belief.leader, belief.drift, t)
     yield from watch_leader(one, belief)
     keep_margin(one, belief)
-    one.memory, advice = advise(one.memory, belief, one.assignment, planner)
+    one.memory, advice = guide(one.memory, belief, one.assignment)
     for event in advice.events:
         document = event_document(t, one.names, event)
         one.metrics = count_event(one.metrics, document)
         yield document
-    if advice.forecast is not one.shown_forecast:
+    if advice.forecast is not None and advice.forecast is not one.shown_forecast:
         one.shown_forecast = advice.forecast
         yield forecast_document(t, one.names.pursuer, advice.forecast)
     if advice.joined and not one.metrics.joined:

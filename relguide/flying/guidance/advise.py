@@ -34,7 +34,7 @@ from relguide.flying.guidance.leader_news import (
     turns_unannounced,
 )
 from relguide.flying.guidance.leaving import (
-    clear_heading,
+    clear_way,
     keep_heading,
     must_leave,
     turn_away,
@@ -256,8 +256,9 @@ def _plan_again(
     memory, events = say_no_plan(memory, belief, assignment, found.answer, events)
     message = f"No plan: holding a safe heading. {found.answer.message}"
     memory, news = enter(memory, belief, "heading", message)
-    out = clear_heading(memory, belief, assignment)
-    progress = Progress(NUMBERS["heading"], 0.0, out, assignment.tas)
+    out = clear_way(memory, belief, assignment)
+    tas = out.tas if out.tas < belief.own.tas else assignment.tas
+    progress = Progress(NUMBERS["heading"], 0.0, out.heading, tas)
     return memory._replace(progress=progress, committed=None, forecast=None), [*events, *news]
 
 

@@ -13,10 +13,12 @@ import numpy as np
 
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.assignment import Assignment
+from relguide.flying.guidance.forecast import NO_COURSE, forecast
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.motion import Motion
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.guide import HOLD, Progress
 from relguide.kernels.flight.program import roll_lead
 from relguide.kernels.separation import least_bad_turn as kernel
 from relguide.kernels.separation.approach import least_separation
@@ -27,6 +29,10 @@ ENDS_EVERY: Radian = 30.0 * DEG
 """A leader's turn that ends between two of these is little worse [rad]."""
 TURNS_ON: Radian = 180.0 * DEG
 """A leader that turned farther would fly back to where it came from [rad]."""
+TRIED_EVERY: Radian = 10.0 * DEG
+"""Headings that are flown ahead are so far apart [rad]."""
+HEADINGS = 36
+"""So many are tried, to both sides by turns."""
 FAINT: Radian = 2.0 * DEG
 """An escape's heading is found to 10°; smaller differences do not count [rad]."""
 
@@ -38,6 +44,8 @@ class Escape(NamedTuple):
     """Clockwise from north [rad]."""
     least_separation: Metre
     """Least separation over all that the leader may do [m]."""
+    tas: MetrePerSecond
+    """The speed to go for [m/s]."""
 
 
 def escape(
@@ -69,7 +77,7 @@ def escape(
             for side in (-1.0, 0.0, 1.0)
         ]
     )
-    best = Escape(own.heading, inf)
+    best = Escape(own.heading, inf, own.tas)
     for leader in _leaders(belief, other_tas):
         side, angle, least = kernel.escape_path(
             _motion(belief), full, before, leader, _pieces(belief, leader, turns_on=turns_on),
@@ -77,8 +85,48 @@ def escape(
         )  # fmt: skip
         turned = before[side + 1, 0] * rate + side * angle
         if least < best.least_separation:
-            best = Escape(wrap(own.heading + turned), least)
+            best = Escape(wrap(own.heading + turned), least, own.tas)
     return best
+
+
+def flown_escape(
+    belief: Belief, assignment: Assignment, min_separation: Metre, at_least: Metre
+) -> Escape | None:
+    """A heading and a speed that keep clear if flown as the aircraft flies, with all its bank.
+
+    Rolling and braking are flown ahead, so it finds what a turn at constant speed does not keep. Of
+    those that keep clear, the one nearest to the present heading that keeps its speed.
+
+    Args:
+        belief: both aircraft; the leader flies as is expected of it.
+        assignment: what was asked.
+        min_separation: to be kept [m].
+        at_least: what another must keep to be better than nothing [m].
+
+    Returns:
+        `None` if none keeps `at_least`.
+    """
+    own, best = belief.own, None
+    for tas in (own.tas, belief.limits.min_tas):
+        for k in range(HEADINGS):
+            turned = TRIED_EVERY * ((k + 1) // 2) * (1.0 if k % 2 else -1.0)
+            heading = own.heading + turned
+            least = separation_flown(belief, assignment, heading, tas)
+            if least >= min_separation:
+                return Escape(wrap(heading), least, tas)
+            if least > (at_least if best is None else best.least_separation):
+                best = Escape(wrap(heading), least, tas)
+    return best
+
+
+def separation_flown(
+    belief: Belief, assignment: Assignment, heading: Radian, tas: MetrePerSecond
+) -> Metre:
+    """The least separation on a heading at a speed, flown ahead with its roll and braking [m]."""
+    holding = Progress(HOLD, 0.0, heading, tas)
+    until = belief.t + assignment.settings.look_out
+    ahead = forecast(belief, assignment, holding, NO_COURSE, until=until)
+    return ahead.least(belief.t)[0]
 
 
 def separation_on_heading(

@@ -5,7 +5,13 @@ from math import cos, hypot, inf, sin, sqrt
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.announcements import Event, UnableTo
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.escape import escape, separation_on_heading
+from relguide.flying.guidance.escape import (
+    Escape,
+    escape,
+    flown_escape,
+    separation_flown,
+    separation_on_heading,
+)
 from relguide.flying.guidance.leader_news import turns_unannounced
 from relguide.flying.guidance.memory import Memory, enter
 from relguide.flying.guidance.monitor import Outlook
@@ -30,26 +36,34 @@ def turn_away(
         why: a sentence.
         slower: whether the leader is likely to slow down further.
     """
-    out = clear_heading(memory, belief, assignment, slower=slower)
-    memory, news = enter(memory, belief, "escape", f"{why} Turning to {compass(out)}.")
-    progress = Progress(NUMBERS["escape"], 0.0, out, belief.own.tas)
+    out = clear_way(memory, belief, assignment, slower=slower)
+    how = ", slowing down" if out.tas < belief.own.tas else ""
+    text = f"{why} Turning to {compass(out.heading)}{how}."
+    memory, news = enter(memory, belief, "escape", text)
+    progress = Progress(NUMBERS["escape"], 0.0, out.heading, out.tas)
     return memory._replace(progress=progress, committed=None, forecast=None), news
 
 
-def clear_heading(
+def clear_way(
     memory: Memory, belief: Belief, assignment: Assignment, *, slower: bool = False
-) -> Radian:
-    """The heading nearest to the present one that keeps clear of the leader [rad]."""
+) -> Escape:
+    """The heading nearest to the present one that keeps clear of the leader, and the speed."""
     other_tas = _other_tas(memory, belief, assignment)
     if slower:
         other_tas = assignment.settings.slows_to_share * belief.leader.tas
-    return escape(
+    turns_on = turns_unannounced(belief, assignment)
+    out = escape(
         belief,
         assignment,
         assignment.buffered_separation,
-        turns_on=turns_unannounced(belief, assignment),
+        turns_on=turns_on,
         other_tas=other_tas,
-    ).heading
+    )
+    wanted = assignment.min_separation + assignment.settings.escape_tube
+    if turns_on or out.least_separation >= wanted:
+        return out
+    kept = separation_flown(belief, assignment, out.heading, out.tas)
+    return flown_escape(belief, assignment, wanted, kept) or out
 
 
 def keep_heading(
@@ -72,23 +86,22 @@ def keep_heading(
         gained = _regained_in(belief, progress.heading, assignment) - soonest.at_time
         if soonest.at_time == inf or gained < settings.escapes_for:
             return memory, []
-        heading, purpose = soonest.heading, "to regain the separation soonest"
+        heading, tas, purpose = soonest.heading, progress.tas, "to regain the separation soonest"
     else:
-        out = escape(
-            belief,
-            assignment,
-            assignment.buffered_separation,
-            turns_on=turns_on,
-            other_tas=other_tas,
-        )
-        if out.least_separation < kept + settings.escape_tube:
+        flown = separation_flown(belief, assignment, progress.heading, progress.tas)
+        if not turns_on and flown >= assignment.min_separation + settings.forecast_error:
             return memory, []
-        heading, purpose = out.heading, "to keep clear of the leader"
+        out = clear_way(memory, belief, assignment)
+        if out.least_separation < max(kept, 0.0 if turns_on else flown) + settings.forecast_error:
+            return memory, []
+        heading, tas, purpose = out.heading, out.tas, "to keep clear of the leader"
     said: list[Event] = []
-    if abs(wrap_signed(heading - progress.heading)) > settings.heading_news:
+    if tas < progress.tas:
+        purpose = f"slowing down, {purpose}"
+    if tas < progress.tas or abs(wrap_signed(heading - progress.heading)) > settings.heading_news:
         message = f"Turning to {compass(heading)}, {purpose}."
         said.append(UnableTo(reason="separation", message=message))
-    return memory._replace(progress=progress._replace(heading=heading)), said
+    return memory._replace(progress=progress._replace(heading=heading, tas=tas)), said
 
 
 def _regained_in(belief: Belief, heading: Radian, assignment: Assignment) -> Second:

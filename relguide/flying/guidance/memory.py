@@ -145,8 +145,8 @@ class Advice:
     joined: bool
     """Eq. (7) holds: within 0.2 NM of the slot along and 0.1 NM across, heading within 2°, open."""
     alert: AlertState
-    forecast: Forecast
-    """The flight ahead."""
+    forecast: Forecast | None
+    """The flight ahead; `None` where guidance does not look ahead."""
     events: tuple[Event, ...]
 
 

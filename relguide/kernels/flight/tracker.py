@@ -80,7 +80,7 @@ def predict(state: FloatArray, covariance: FloatArray, dt: float) -> tuple[Float
     moved[:2, TRACK] = v * dt * sinc * across
     moved[:2, RATE] = 0.5 * v * dt * dt * (slope * along + sinc * across)
     moved[TRACK, RATE] = dt
-    later = moved @ covariance @ moved.T
+    later = _times(_times(moved, covariance), moved.T)
     # ∫ of what noise on v̇ and ṙ does: columns are the ways it comes to by now, each in its powers
     reach = v * across
     later[SPEED, SPEED] += SPEED_NOISE * dt
@@ -129,14 +129,25 @@ def update(
     seen[2] -= state[X]
     seen[3] -= state[Y]
     variances = np.array([velocity_sigma, velocity_sigma, position_sigma, position_sigma]) ** 2
-    rows = np.array([[0.0, 0.0, 0.0, v, 0.0], [0.0, 0.0, 1.0, 0.0, 0.0],
-                     [1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0, 0.0]])  # fmt: skip
+    columns, weights = (TRACK, SPEED, X, Y), (v, 1.0, 1.0, 1.0)
     after, spread, surprise = np.zeros(5), covariance.copy(), 0.0
     for k in range(4):
-        shared = spread @ rows[k]
-        variance = rows[k] @ shared + variances[k]
-        error = seen[k] - rows[k] @ after
+        column, weight = columns[k], weights[k]  # each measures one number of the state
+        shared = weight * spread[:, column]
+        variance = weight * shared[column] + variances[k]
+        error = seen[k] - weight * after[column]
         surprise += error * error / variance
         after += shared * (error / variance)
         spread -= np.outer(shared, shared) / variance
     return state + after, spread, surprise
+
+
+@njit(cache=True, nogil=True)
+def _times(one: FloatArray, other: FloatArray) -> FloatArray:
+    """The product of two small matrices: numba's own needs a library that kernels do without."""
+    product = np.zeros((len(one), other.shape[1]))
+    for i in range(len(one)):
+        for j in range(len(other)):
+            for k in range(other.shape[1]):
+                product[i, k] += one[i, j] * other[j, k]
+    return product

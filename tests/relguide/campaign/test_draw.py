@@ -45,6 +45,17 @@ def test_what_is_varied_besides_changes_no_other_draw() -> None:
     assert alone.case.wind_error == beside.case.wind_error
 
 
+def test_a_baseline_flies_what_is_drawn_for_relguide() -> None:
+    asked = {"flights": 5, "family": "declared", "seed": 3}
+    by_trail = read_campaign({"campaign": asked | {"guidance": "trail"}})
+    assert read_campaign(by_trail.as_tables()) == by_trail
+    ours, theirs = (draw_flight(one, 4).case for one in (campaign(), by_trail))
+    assert (ours.guidance, theirs.guidance) == ("relguide", "trail")
+    assert ours.scenario.situation == theirs.scenario.situation
+    with pytest.raises(ValueError, match="guidance must be one of relguide, slot_pursuit"):
+        read_campaign({"campaign": asked | {"guidance": "carrot"}})
+
+
 def test_a_derived_family_begins_as_its_base() -> None:
     base = draw("declared", 2, seed=3)
     derived = draw_flight(campaign("wind_error"), 2)

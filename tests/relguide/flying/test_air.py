@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 
 from relguide.flying.air import (
     HIGHEST_ALTITUDE,
-    LOWEST_ALTITUDE,
     ISA_DEVIATION,
+    LOWEST_ALTITUDE,
     STANDARD_AIR,
     TROPOPAUSE,
     Air,

@@ -156,6 +156,7 @@ function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): P
     joined: t >= end,
     alert: "none",
     leader_age_s: 0,
+    margin_m: 0,
     engagement: "engaged",
     margin_m: 0,
   };

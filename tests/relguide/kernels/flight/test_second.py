@@ -78,7 +78,7 @@ def test_a_gust_changes_the_airspeed_by_minus_what_it_blows_along(
     _, rows = gusted(level(heading=heading), gust, pilot=pilot)
     k = STEPS // 2
     along = gust.east * np.sin(heading * DEG) + gust.north * np.cos(heading * DEG)
-    assert rows[: k, 5] == pytest.approx(240.0)
+    assert rows[:k, 5] == pytest.approx(240.0)
     assert rows[k, 5] - rows[k - 1, 5] == pytest.approx(-along, abs=1e-9)
 
 
