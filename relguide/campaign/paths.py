@@ -77,13 +77,13 @@ def turns_flown(
     """What plans turn, each as far as it was flown before the next took its place.
 
     Args:
-        plans: when each began to be flown [s], and its path; in order of time.
+        plans: when each began to be flown [s], and its path; in order of time. None, if none was.
         until: when the last was left [s].
 
     Yields:
         the heading change of each piece, positive to the right, and how long it took.
     """
-    ends = [begun for begun, _ in plans[1:]] + [until]
+    ends = [*(begun for begun, _ in plans[1:]), until][: len(plans)]
     for (begun, segments), end in zip(plans, ends, strict=True):
         left = end - begun
         for segment in segments:

@@ -45,12 +45,37 @@ def test_what_is_varied_besides_changes_no_other_draw() -> None:
     assert alone.case.wind_error == beside.case.wind_error
 
 
+def test_a_baseline_flies_what_is_drawn_for_relguide() -> None:
+    asked = {"flights": 5, "family": "declared", "seed": 3}
+    by_trail = read_campaign({"campaign": asked | {"guidance": "trail"}})
+    assert read_campaign(by_trail.as_tables()) == by_trail
+    ours, theirs = (draw_flight(one, 4).case for one in (campaign(), by_trail))
+    assert (ours.guidance, theirs.guidance) == ("relguide", "trail")
+    assert ours.scenario.situation == theirs.scenario.situation
+    with pytest.raises(ValueError, match="guidance must be one of relguide, slot_pursuit"):
+        read_campaign({"campaign": asked | {"guidance": "carrot"}})
+
+
 def test_a_derived_family_begins_as_its_base() -> None:
     base = draw("declared", 2, seed=3)
     derived = draw_flight(campaign("wind_error"), 2)
     assert derived.case.scenario.situation == base.scenario.situation
     assert derived.case.wind_error.speed == pytest.approx(abs(derived.values["wind_error_mps"]))
     assert draw_flight(campaign("exact"), 2).case.scenario.situation == base.scenario.situation
+
+
+def test_the_mixed_family_has_all_that_is_not_exact_over_three_families() -> None:
+    for number, base in enumerate(("declared", "undeclared", "commands")):
+        case = draw_flight(campaign("mixed"), number).case
+        drawn = draw(base, number, seed=3)
+        assert (case.family, case.scenario.situation) == ("mixed", drawn.scenario.situation)
+        assert case.orders == drawn.orders
+        world = case.world()
+        seen = world.surveillance
+        assert (seen.kind, seen.nacp, seen.nacv, seen.latency) == ("adsb", 8, 2, 1.0)
+        assert world.air.gusts == 1.5
+        assert world.believed_air is not None
+        assert case.wind_error.speed == pytest.approx(5.0)
 
 
 VALUES = {

@@ -64,6 +64,7 @@ def test_plans_turn_only_as_far_as_they_are_flown() -> None:
     assert cut == [(pytest.approx(0.5 * whole[0][0]), pytest.approx(0.5 * first))]
     again = list(turns_flown([(0.0, segments), (0.5 * first, segments)], 1.5 * first))
     assert sum(angle for angle, _ in again) == pytest.approx(1.5 * whole[0][0])
+    assert not list(turns_flown([], 100.0))
 
 
 def test_small_corrections_are_no_reversals() -> None:

@@ -131,6 +131,13 @@ def test_the_good_part_of_a_damaged_recording_is_printed(
 
 
 @pytest.mark.slow
+def test_a_baseline_joins_without_a_plan(run: Run) -> None:
+    code, out, _ = run("fly", write(NEAR), "--guidance", "trail", "--json")
+    figures = json.loads(out)
+    assert (code, figures["joined"], figures["plans_by"]) == (0, True, {})
+
+
+@pytest.mark.slow
 def test_fly_without_a_plan_fails(run: Run) -> None:
     code, out, err = run("fly", write(UNREACHABLE), "--json")
     assert code == 1
