@@ -184,9 +184,8 @@ def draw(outcomes: Sequence[Outcome], file: Path) -> None:
             flown = [one for one in outcomes if one.way == way and one.joined]
             _line_of(left, flown, [one.join_time for one in flown])
             _line_of(right, flown, [one.swing / DEG for one in flown])
-        left.annotate(
-            "hollow: joined before the turn", (890.0, 835.0), ha="right", fontsize=8, color=ORANGE
-        )
+        hollow = "hollow: joined\nbefore the turn"
+        left.annotate(hollow, (890.0, 795.0), ha="right", fontsize=8, color=ORANGE)
         for axes in (left, right):
             axes.set_xlabel("the leader turns at [s]")
             axes.set_xlim(0.0, 900.0)

@@ -25,6 +25,7 @@ from typing import Any
 from relguide.campaign.distribution import (
     Choice,
     Distribution,
+    Fixed,
     Normal,
     Uniform,
     as_table,
@@ -45,10 +46,15 @@ HEADS = ("name", "seed", "flights", "family", "guidance", "limit_s", "after_join
 
 @dataclass(frozen=True, slots=True)
 class Derived:
-    """A family that draws the flights of another, and something more of each."""
+    """A family that draws the flights of others, and something more of each."""
 
-    base: str
+    bases: tuple[str, ...]
+    """By turns."""
     vary: Mapping[str, Distribution]
+
+    def base(self, number: int) -> str:
+        """The family that draws the flight of a number."""
+        return self.bases[number % len(self.bases)]
 
 
 SEEN: Mapping[str, Distribution] = {
@@ -58,15 +64,20 @@ SEEN: Mapping[str, Distribution] = {
     "loss_share": Uniform(0.0, 0.1),
 }
 """By ADS-B as it is: most aircraft broadcast NACp 8 … 10 and NACv 1 or 2."""
+ROUGH: Mapping[str, Distribution] = {
+    "wind_error_mps": Fixed(5.0),
+    "nacp": Fixed(8.0),
+    "nacv": Fixed(2.0),
+    "latency_s": Fixed(1.0),
+    "gusts_mps": Fixed(1.5),
+}
+"""All that is not exact, at once: winds aloft are wrong by 3 to 8 m/s."""
 DERIVED: Mapping[str, Derived] = {
-    "exact": Derived("declared", {}),
-    "wind_error": Derived("declared", {"wind_error_mps": Normal(0.0, 5.0)}),
-    "surveillance": Derived("undeclared", SEEN),
-    "gusts": Derived("declared", {"gusts_mps": Uniform(0.0, 1.5)}),
-    "mixed": Derived(
-        "undeclared",
-        {**SEEN, "wind_error_mps": Normal(0.0, 5.0), "gusts_mps": Uniform(0.0, 1.5)},
-    ),
+    "exact": Derived(("declared",), {}),
+    "wind_error": Derived(("declared",), {"wind_error_mps": Normal(0.0, 5.0)}),
+    "surveillance": Derived(("undeclared",), SEEN),
+    "gusts": Derived(("declared",), {"gusts_mps": Uniform(0.0, 1.5)}),
+    "mixed": Derived(("declared", "undeclared", "commands"), ROUGH),
 }
 """By name; to add one, a line. Its flights begin as those of its base with the same number."""
 KNOWN = (*FAMILIES, *DERIVED)

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field, replace
 from relguide.flying.flight import DeclaredLeader, Scenario, world_of
 from relguide.flying.guidances import Guidance
 from relguide.flying.orders import Command
-from relguide.flying.surveillance import EXACT, Surveillance
+from relguide.flying.surveillance import EXACT
 from relguide.flying.world import World
 from relguide.planning.situation import CALM, Wind
-from relguide.units import MetrePerSecond, Second
+from relguide.units import Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,10 +29,6 @@ class Case:
     """What guidance believes of the wind beyond what is true."""
     isa_error: float = 0.0
     """The same of the temperature [K]."""
-    gusts: MetrePerSecond = 0.0
-    """σ along and across [m/s]."""
-    surveillance: Surveillance = EXACT
-    """How the leader is seen."""
     guidance: Guidance = "relguide"
 
     @property
@@ -53,11 +49,9 @@ class Case:
         return replace(
             world,
             aircraft=(replace(pursuer, airframe=true, believed=believed), leader),
-            air=replace(world.air, gusts=self.gusts),
             believed_air=world.air.with_error(wind_error=self.wind_error, isa_error=self.isa_error)
             if wrong
             else None,
-            surveillance=self.surveillance,
         )
 
     def as_code(self) -> str:
@@ -77,6 +71,6 @@ class Case:
             lines.append(f"factors = {dict(self.factors)!r}")
         if self.wind_error != CALM or self.isa_error:
             lines.append(f"wind_error, isa_error = {self.wind_error!r}, {self.isa_error}")
-        if self.gusts or self.surveillance != EXACT:
-            lines.append(f"gusts, surveillance = {self.gusts}, {self.surveillance!r}")
+        if scenario.gusts or scenario.surveillance != EXACT:
+            lines.append(f"gusts, surveillance = {scenario.gusts}, {scenario.surveillance!r}")
         return "\n".join(lines)

@@ -36,10 +36,11 @@ def draw_flight(campaign: Campaign, flight: int) -> DrawnFlight:
         raise ValueError(f"{campaign.name} has the flights 0 to {last:,}, and no {flight}.")
     number, at = divmod(flight, len(campaign.points))
     point = campaign.points[at]
-    kind = DERIVED.get(point.family, Derived(point.family, {}))
-    case = draw(kind.base, number, campaign.seed)
+    kind = DERIVED.get(point.family, Derived((point.family,), {}))
+    base = kind.base(number)
+    case = draw(base, number, campaign.seed)
     scenario = replace(case.scenario, name=point.family, title=f"{campaign.name} {flight}")
-    noise = int(stream(kind.base, number, campaign.seed, "noise").integers(2**32))
+    noise = int(stream(base, number, campaign.seed, "noise").integers(2**32))
     case = replace(
         case,
         family=point.family,
@@ -52,13 +53,13 @@ def draw_flight(campaign: Campaign, flight: int) -> DrawnFlight:
     for name, key in KEYS.items():
         if name not in point.values and name not in drawn:
             continue
-        rng = stream(kind.base, number, campaign.seed, name)
+        rng = stream(base, number, campaign.seed, name)
         if name in point.values:
             values[name] = point.values[name]
         else:
             values[name] = drawn[name].draw(rng, key.limits)
         # what a value leaves open is the same for all values that are swept
-        left_open = stream(kind.base, number, campaign.seed, f"{name}, open")
+        left_open = stream(base, number, campaign.seed, f"{name}, open")
         case = key.set(case, values[name], left_open)
     return DrawnFlight(flight=flight, point=point, values=values, case=_limited(campaign, case))
 

@@ -119,16 +119,13 @@ def _isa_error(case: Case, value: float, rng: Draw) -> Case:
     return replace(case, isa_error=value)
 
 
-def _gusts(case: Case, value: float, rng: Draw) -> Case:
-    return replace(case, gusts=value)
-
-
 def _seen(name: str, as_given: Callable[[float], float] = float) -> Setter:
     """By ADS-B, with one of its fields; the others keep their default."""
 
     def set_it(case: Case, value: float, rng: Draw) -> Case:
         changed: Any = {"kind": "adsb", name: as_given(value)}
-        return replace(case, surveillance=replace(case.surveillance, **changed))
+        seen = replace(case.scenario.surveillance, **changed)
+        return replace(case, scenario=replace(case.scenario, surveillance=seen))
 
     return set_it
 
@@ -170,7 +167,7 @@ KEYS: Mapping[str, Key] = {
         FACTOR, _factor("zero_lift_drag", "induced_drag"), "true over believed, without brakes"
     ),
     "speed_brake_factor": Key(FACTOR, _factor("speed_brake_drag"), "true over believed"),
-    "gusts_mps": Key(GUSTS, _gusts, "σ along and across, Dryden"),
+    "gusts_mps": Key(GUSTS, _scenario("gusts"), "σ along and across, Dryden"),
     "nacp": Key(Range(1, 11, "of NACp"), _seen("nacp", round), "category of ADS-B positions"),
     "nacv": Key(Range(1, 4, "of NACv"), _seen("nacv", round), "category of ADS-B velocities"),
     "latency_s": Key(LATENCY, _seen("latency"), "of reports"),

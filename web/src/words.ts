@@ -134,6 +134,12 @@ export const ELEMENTS: readonly Element[] = [
     "dashed circle; amber when it will be lost, red when it is",
     "key-min",
   ),
+  element(
+    "margin",
+    "Margin",
+    "thin, dashed, round the minimum: what guidance keeps beside it for what it is not certain of",
+    "key-dotted",
+  ),
   element("history", "Leader's past", "a dot each 10 s", "key-dotted"),
   element("intent", "Leader's route", "dash-dot: what it declared to fly", "key-leader"),
   element(

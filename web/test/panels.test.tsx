@@ -18,6 +18,7 @@ import {
   alert,
   modeChanged,
   noPlan,
+  OWN,
   planChanged,
   STARTED,
   sample,
@@ -181,6 +182,45 @@ describe("panels", () => {
     act(() => store.receive(tick(3, [over, sample(3)]), 3000));
     expect(place.querySelector(".log .clear")?.textContent).toContain(over.message);
     expect(spoken()).not.toContain(caution.message);
+  });
+
+  test("a join at another time than was said is listed and spoken, until the next plan", () => {
+    const { store, session } = flying();
+    const message = "Joins in 12:30, 0:45 later than was said.";
+    const promise = { kind: "promise_changed", t_s: 1, ident: OWN, promised_s: 750 } as const;
+    store.receive(tick(1, [{ ...promise, message }, sample(1)]), 1000);
+    render(
+      <>
+        <Events session={session} />
+        <Announcer session={session} />
+      </>,
+      place,
+    );
+    const spoken = () => place.querySelector("[role=status]")?.textContent;
+    expect(place.querySelector(".log .plan")?.textContent).toContain(message);
+    expect(spoken()).toContain(message);
+    act(() => store.receive(tick(2, [planChanged(2), sample(2)]), 2000));
+    expect(spoken()).not.toContain(message);
+  });
+
+  test("what guidance is not certain of is a number, if there is one", () => {
+    const { store, session } = flying();
+    const text = () => place.textContent;
+    render(<PlanNumbers session={session} />, place);
+    expect(text()).not.toContain("Uncertain");
+    act(() => store.receive(tick(1, [sample(1, { margin_m: 185.2 })]), 1000));
+    expect(text()).toContain("Uncertain by± 0.10NM");
+    expect(text()).toContain("kept beside MIN");
+  });
+
+  test("a report that is late is no loss of reports", () => {
+    const { store, session, actions } = flying();
+    render(<LeaderControls session={session} actions={actions} />, place);
+    const isChosen = (name: string) => button(name).getAttribute("aria-pressed");
+    act(() => store.receive(tick(1, [sample(1, { leader_age_s: 1 })]), 1000));
+    expect(isChosen("received")).toBe("true");
+    act(() => store.receive(tick(4, [sample(4, { leader_age_s: 4 })]), 4000));
+    expect(isChosen("lost")).toBe("true");
   });
 
   test("numbers are blanked when the data are lost, not left standing", () => {

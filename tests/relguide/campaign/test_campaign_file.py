@@ -47,6 +47,7 @@ def test_a_file_is_read_and_written_the_same() -> None:
 
 
 def test_the_example_is_the_campaign_of_the_page() -> None:
+    assert load_campaign(ROOT / "examples" / "mixed.toml").total == 2_000
     found = load_campaign(ROOT / "examples" / "campaign.toml")
     assert (found.seed, found.flights, len(found.points)) == (0, 100, 8)
 

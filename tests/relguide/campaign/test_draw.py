@@ -64,6 +64,20 @@ def test_a_derived_family_begins_as_its_base() -> None:
     assert draw_flight(campaign("exact"), 2).case.scenario.situation == base.scenario.situation
 
 
+def test_the_mixed_family_has_all_that_is_not_exact_over_three_families() -> None:
+    for number, base in enumerate(("declared", "undeclared", "commands")):
+        case = draw_flight(campaign("mixed"), number).case
+        drawn = draw(base, number, seed=3)
+        assert (case.family, case.scenario.situation) == ("mixed", drawn.scenario.situation)
+        assert case.orders == drawn.orders
+        world = case.world()
+        seen = world.surveillance
+        assert (seen.kind, seen.nacp, seen.nacv, seen.latency) == ("adsb", 8, 2, 1.0)
+        assert world.air.gusts == 1.5
+        assert world.believed_air is not None
+        assert case.wind_error.speed == pytest.approx(5.0)
+
+
 VALUES = {
     "altitude_m": 7000.0, "isa_deviation_k": 5.0, "pursuer_tas_mps": 210.0, "max_bank_deg": 20.0,
     "leader_tas_mps": 160.0, "leader_tas_share": 0.7, "min_separation_m": 6000.0,

@@ -35,7 +35,7 @@ export function SeparationCircle({ shown, view }: LayerProps) {
 }
 
 /** Whether it is drawn: round a designated leader, and wherever the minimum is or will be lost. */
-function isRound({ designated, separation }: Picture): boolean {
+export function isRound({ designated, separation }: Picture): boolean {
   return designated || separation.state !== "kept";
 }
 

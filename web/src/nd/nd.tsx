@@ -19,6 +19,7 @@ import { LeaderIntent } from "./intent";
 import { CarriedLabels, Labels } from "./labelled";
 import { type LayerProps, usePart } from "./layer";
 import { Leader } from "./leader";
+import { MarginCircle } from "./margin";
 import { MessageLine } from "./message";
 import { TimeTicks } from "./minutes";
 import { NextPoint } from "./next";
@@ -49,7 +50,7 @@ interface Sheet {
 /** The world, bottom to top, by what each part of it moves with. */
 const MAP_SHEETS: readonly Sheet[] = [
   { by: "map", layers: [LeaderIntent, LeaderHistory] },
-  { by: "leader", layers: [SeparationCircle] },
+  { by: "leader", layers: [SeparationCircle, MarginCircle] },
   {
     by: "map",
     layers: [

@@ -26,6 +26,7 @@ export const LINES = {
   declared: { colour: "leader", width: 2, dash: "12 4 2 4" },
   extrapolated: { colour: "leader", width: 2, dash: "2 6" },
   circle: { colour: "label", width: 2, dash: "7 5" },
+  margin: { colour: "label", width: 1, dash: "3 5" },
   closest: { colour: "label", width: 1.75, dash: "4 3" },
   ghostRing: { colour: "label", width: 1.5, dash: "2 7" },
   ring: { colour: "scale", width: 1.5, dash: "15 10" },

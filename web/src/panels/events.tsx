@@ -41,7 +41,7 @@ export function Events(props: { session: Session }) {
 
 /** Mode changes, alerts and the loss of a plan, spoken without taking the focus. */
 export function Announcer(props: { session: Session }) {
-  const { engagement, mode, unavailable, unable, alerts, lost } = props.session.flight;
+  const { engagement, mode, promise, unavailable, unable, alerts, lost } = props.session.flight;
   const { state } = props.session.shown.numbers.value;
   const polite: string[] = [];
   if (state !== "off") polite.push(`${STATE_NAMES[state]}.`);
@@ -49,6 +49,7 @@ export function Announcer(props: { session: Session }) {
   const urgent: string[] = [];
   if (mode.value !== null)
     polite.push(`Mode ${MODE_NAMES[mode.value.mode]}. ${mode.value.message}`);
+  if (promise.value !== null) polite.push(promise.value.message);
   if (unavailable.value !== null) polite.push(`No plan. ${unavailable.value.answer.message}`);
   for (const alert of alerts.value)
     (alert.level === "advisory" ? polite : urgent).push(alert.message);

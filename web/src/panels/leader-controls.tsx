@@ -4,6 +4,7 @@ import { useSignal } from "@preact/signals";
 import { Dial } from "../dial";
 import { Choice, Icon, Panel } from "../parts";
 import { type Actions, isFlying, type Session } from "../session";
+import { ageOf } from "../store/states";
 import { formatHeading, KT } from "../units";
 
 export function LeaderControls(props: { session: Session; actions: Actions }) {
@@ -22,7 +23,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
   const selectedKnots = knots.value ?? knotsNow;
   const known = session.flight.route.value?.intent_known ?? null;
   const absent = leader === undefined || !isFlying(session);
-  const isHeard = session.shown.numbers.value.sample?.leader_age_s === 0;
+  const isHeard = ageOf(session.shown.numbers.value.sample?.leader_age_s ?? 0) === "fresh";
   return (
     <Panel name="leader" title="Leader" {...named}>
       <p class="caption">

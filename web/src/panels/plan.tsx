@@ -139,7 +139,7 @@ function whenClosest({ when, left }: LeastAhead): string {
 }
 
 function SafetyReadings(props: { numbers: Numbers; isIntentKnown: boolean | null }) {
-  const { least, plan, leastSoFar, wasLost, minSeparation } = props.numbers;
+  const { least, plan, leastSoFar, wasLost, minSeparation, margin } = props.numbers;
   const known = props.isIntentKnown;
   return (
     <>
@@ -160,6 +160,9 @@ function SafetyReadings(props: { numbers: Numbers; isIntentKnown: boolean | null
         tone={wasLost ? "alert" : "value"}
         note={`${wasLost ? "LOST " : ""}(MIN ${minSeparation})`}
       />
+      {margin !== "" && (
+        <Reading label="Uncertain by" value={`± ${margin}`} unit="NM" note="kept beside MIN" />
+      )}
       <Reading
         label="Leader intent"
         value={known === null ? "––" : known ? "YES" : "NO"}

@@ -128,6 +128,7 @@ export function emptyFlight(): Flight {
     unavailable: signal(null),
     alerts: signal([]),
     unable: signal(null),
+    promise: signal(null),
     lost: signal(null),
     mode: signal(null),
     modeSince: signal(-Infinity),

@@ -40,7 +40,7 @@ export const UNABLE_TO: Record<UnableReason, string> = {
 /** What an alert is about; a loss of separation also says when. */
 export const ALERTED: Record<AlertSubject, string> = {
   separation: "SEP",
-  spacing: "SPACING",
+  spacing: "SPACING NOT KEPT",
   speed: "LDR SPEED",
   data: "LDR DATA",
   geometry: "LDR PATH",

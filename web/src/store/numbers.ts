@@ -91,6 +91,8 @@ export interface Numbers {
   /** D and MIN [NM]. */
   readonly slotDistance: string;
   readonly minSeparation: string;
+  /** What is kept beside MIN for what is not certain [NM]; "" where all is exact. */
+  readonly margin: string;
   readonly separation: string;
   readonly closure: string;
   /** Offset from the leader's route, "0.3R"; "" below 0.05 NM. */
@@ -156,6 +158,7 @@ export function numbersOf(flight: Flight): Numbers {
     ...airTexts(flight, guided),
     slotDistance: started === null ? NOTHING : formatMiles(started.slot_distance_m),
     minSeparation: started === null ? NOTHING : formatMiles(started.min_separation_m),
+    margin: guided === null || guided.margin_m <= 0 ? "" : formatMiles(guided.margin_m, 2),
     separation: shown === null ? NOTHING : formatMiles(shown.separation_m),
     closure: shown === null ? NOTHING : formatSignedKnots(shown.closure_mps),
     crossTrack: shown === null ? NOTHING : formatSide(shown.cross_track_m),

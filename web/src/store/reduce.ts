@@ -69,6 +69,7 @@ export function reduce(flight: Flight, document: Document, arrival: Arrival): vo
       log(flight, { t, kind: "mode", text: document.message });
       return;
     case "promise_changed":
+      flight.promise.value = document;
       log(flight, { t, kind: "plan", text: document.message });
       return;
     case "alert":
@@ -108,6 +109,7 @@ function begin(flight: Flight, started: FlightStarted): void {
   flight.trail.leader.value = [];
   flight.alerts.value = [];
   flight.unable.value = null;
+  flight.promise.value = null;
   flight.ended.value = null;
 }
 
@@ -121,6 +123,7 @@ function reducePlan(flight: Flight, changed: PlanChanged, { joining, wall, since
   flight.planSince.value = since;
   flight.unavailable.value = null;
   flight.unable.value = null;
+  flight.promise.value = null;
   if (changed.announced) log(flight, { t: changed.t_s, kind: "plan", text: changed.message });
 }
 

@@ -11,6 +11,7 @@ import type {
   PlanChanged,
   PlanProposed,
   PlanUnavailable,
+  PromiseChanged,
   SeparationLost,
   Unable,
 } from "../wire";
@@ -49,6 +50,8 @@ export interface Flight {
   readonly route: Signal<LeaderRoute | null>;
   /** The last plan that was flown: `flownPlan` says whether it still is. */
   readonly plan: Signal<PlanChanged | null>;
+  /** The last time of the join that was said anew, until the next plan. */
+  readonly promise: Signal<PromiseChanged | null>;
   /** The path that could be flown; null when guidance is engaged, or there is none. */
   readonly proposal: Signal<PlanProposed | null>;
   /** The path that own ship will really fly, whatever its mode. */

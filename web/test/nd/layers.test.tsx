@@ -1,4 +1,5 @@
 import { describe, expect, test } from "vitest";
+import { MarginCircle } from "../../src/nd/margin";
 import { GLASS_LAYERS, GROUND_LAYERS, MAP_LAYERS } from "../../src/nd/nd";
 import { drawLayer, screenOf } from "./draw";
 import { flightAt } from "./fixture";
@@ -17,4 +18,17 @@ describe.each(CASES)("$name", ({ name, flight, mode, range }) => {
       `snapshots/${name}/${title}.svg`,
     );
   });
+});
+
+/** Where the leader's position is uncertain by so much [m]. */
+function uncertain(margin_m: number) {
+  const flight = flightAt("crossing", 60);
+  if (flight.now.value !== null) flight.now.value = { ...flight.now.value, margin_m };
+  return drawLayer(MarginCircle, screenOf(flight, "ROSE", 40));
+}
+
+test("what is uncertain is a thin dashed ring round the minimum, if it can be told from it", async () => {
+  await expect(uncertain(1852)).toMatchFileSnapshot("snapshots/uncertain/MarginCircle.svg");
+  expect(uncertain(50)).not.toContain("circle");
+  expect(uncertain(0)).not.toContain("circle");
 });
