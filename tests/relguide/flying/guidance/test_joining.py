@@ -74,7 +74,7 @@ def test_while_the_leader_changes_nothing_is_promised() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("tas", [212.0, 190.0])
 def test_in_capture_another_speed_of_the_leader_is_another_promise_that_is_kept(tas: float) -> None:
-    """Straight behind it captures at once, and no plan is made anew: 30 m/s close, then 18 or 40."""
+    """Straight behind it captures at once, and no plan is made anew; 30 m/s close, then 18, 40."""
     flight = behind(along=22_000.0)
     flown = fly_whole(flight, (60.0, LeaderSpeed(tas=tas)))
     assert [d.mode for d in flown.of(ModeChanged)] == ["converge", "capture", "follow"]
