@@ -235,7 +235,10 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
         },
     ),
     "scenario": (scenario, {"name": "fig_6a"}),
-    "own_scenario": (own_scenario, {"situation": SITUATION, "intent_known": False}),
+    "own_scenario": (
+        own_scenario,
+        {"situation": SITUATION, "intent_known": False, "isa_deviation": 0.0},
+    ),
     "scenario_behind": (scenario_behind, {"track": TRACK, "behind": 3e4, "abeam": 2e4}),
     "record": (record, {"documents": (), "file": "flight.jsonl"}),
     "progress_bar": (lambda title, total: list(show(title, total)), {"title": "", "total": 1.0}),

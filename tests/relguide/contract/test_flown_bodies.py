@@ -1,6 +1,7 @@
 """Situations to fly: the air, what is believed of it, and how well the leader is seen."""
 
 from math import radians
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -16,6 +17,7 @@ from relguide.flying.wind_profile import WindLevel, WindProfile
 from relguide.planning.situation import wind_from
 from tests.bodies import BODY
 
+ROOT = Path(__file__).parents[3]
 CALM_BODY = {name: value for name, value in BODY.items() if name != "wind"}
 WEST = {"from_deg": 270, "speed_mps": 15}
 HIGH = {"altitude_m": 9_000, "from_deg": 270, "speed_mps": 30}
@@ -112,3 +114,11 @@ def test_the_same_wind_may_be_given_twice() -> None:
 def test_plans_say_that_flights_read_it(name: str) -> None:
     with pytest.raises(ContractError, match=f"{name}: belongs in the situation of a flight"):
         parse(SituationBody, {**BODY, name: {}})
+
+
+def test_the_example_has_all_of_it() -> None:
+    body = parse(FlownSituationBody, (ROOT / "examples" / "rough.json").read_text("utf-8"))
+    own, _ = scenario_from_body(body)
+    assert own.profile is not None
+    assert own.believed_air is not None
+    assert (own.gusts, own.isa_deviation, own.surveillance.kind) == (1.5, 5.0, "adsb")
