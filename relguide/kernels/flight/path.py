@@ -20,7 +20,7 @@ S, X, Y, HEADING, CURVATURE, RAMP = 0, 1, 2, 3, 4, 5
 [rad, continuous], its curvature [rad/m, right positive], half the length of the ramp there [m]."""
 KEPT = 4_000.0
 """Of a path that has been flown, so much is kept, for its ramps [m]."""
-ROLL_SHARE = 0.9
+ROLL_SHARE = 0.8
 """Ramps roll at this share of what the type can. One that rolls slower is made good by feedback, as
 one that rolls 30 % slower than its data is."""
 
