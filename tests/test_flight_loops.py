@@ -15,7 +15,6 @@ from benchmarks.tables import markdown, read_table
 from relguide.flying.airframe import Airframe
 from relguide.flying.guidance.settings import DEFAULT, Settings, load_settings
 from relguide.kernels.base.turn import turn_rate
-from relguide.kernels.flight.path import ROLL_SHARE
 from relguide.units import DEG
 from tools.campaign import pictures, report, responses
 from tools.campaign.constants import FILE, constants_toml
@@ -147,9 +146,8 @@ def test_no_start_overshoots_the_path(across: float, in_hand: float, tas: float)
 
 @pytest.mark.parametrize("model", [pictures.SLUGGISH, report.A306, pictures.NIMBLE])
 def test_a_switch_of_bank_costs_what_the_page_says(model: Airframe) -> None:
-    # V Δr T²/24 is what the ramp alone costs; the feedback takes back a part of it. An aircraft
-    # that rolls slower than the ramp flies one of its own
-    q = min(ROLL_SHARE * report.A306.max_roll_rate, model.max_roll_rate)
+    # V Δr T²/24 is what the ramp alone costs; the feedback takes back a part of it
+    q = 0.67 * report.A306.max_roll_rate
     rate = turn_rate(240.0, 22.5 * DEG)
     entry = 240.0 * rate * (22.5 * DEG / q) ** 2 / 24.0
     reversal = 240.0 * 2.0 * rate * (45.0 * DEG / q) ** 2 / 24.0
