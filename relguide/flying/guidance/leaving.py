@@ -60,7 +60,8 @@ def clear_way(
         other_tas=other_tas,
     )
     wanted = assignment.min_separation + assignment.settings.escape_tube
-    if turns_on or out.least_separation >= wanted:
+    # what the leader may do besides is known to the one alone: the other flies it as is expected
+    if turns_on or other_tas is not None or out.least_separation >= wanted:
         return out
     kept = separation_flown(belief, assignment, out.heading, out.tas)
     return flown_escape(belief, assignment, wanted, kept) or out
@@ -88,11 +89,14 @@ def keep_heading(
             return memory, []
         heading, tas, purpose = soonest.heading, progress.tas, "to regain the separation soonest"
     else:
-        flown = separation_flown(belief, assignment, progress.heading, progress.tas)
-        if not turns_on and flown >= assignment.min_separation + settings.forecast_error:
-            return memory, []
+        better_than = kept + settings.escape_tube
+        if not turns_on and other_tas is None:
+            flown = separation_flown(belief, assignment, progress.heading, progress.tas)
+            if flown >= assignment.min_separation + settings.forecast_error:
+                return memory, []
+            better_than = max(kept, flown) + settings.forecast_error
         out = clear_way(memory, belief, assignment)
-        if out.least_separation < max(kept, 0.0 if turns_on else flown) + settings.forecast_error:
+        if out.least_separation < better_than:
             return memory, []
         heading, tas, purpose = out.heading, out.tas, "to keep clear of the leader"
     said: list[Event] = []
