@@ -69,7 +69,6 @@ export function pairAt(t: number, changes: Partial<PairSample> = {}): PairSample
     leader_age_s: 0,
     margin_m: 0,
     engagement: "engaged",
-    margin_m: 0,
     ...changes,
   };
 }

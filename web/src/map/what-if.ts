@@ -109,7 +109,6 @@ function sampleOf(situation: Situation, slot: PathPoint, opens: number): PairSam
     leader_age_s: 0,
     margin_m: 0,
     engagement: "designated",
-    margin_m: 0,
   };
 }
 

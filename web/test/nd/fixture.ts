@@ -158,7 +158,6 @@ function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): P
     leader_age_s: 0,
     margin_m: 0,
     engagement: "engaged",
-    margin_m: 0,
   };
 }
 
