@@ -57,6 +57,7 @@ from relguide import (
     simulate,
     wind_from,
 )
+from relguide.flying.surveillance import EXACT
 from relguide.planning.frames import LocalPlane
 from relguide.units import DEG
 
@@ -187,6 +188,10 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
             "intent_known": True,
             "leader_source": DeclaredLeader(),
             "altitude": 9e3,
+            "gusts": 0.0,
+            "profile": None,
+            "believed_air": None,
+            "surveillance": EXACT,
             "duration_limit": 1.0,
             "after_joining": 0.0,
         },

@@ -14,7 +14,7 @@ ANSWERS = {
     "EngagementChanged", "FlightEnded", "FlightStarted", "ForecastChanged", "Isochrones",
     "LeaderChanged", "LeaderRoute", "ModeChanged", "NoPlan", "Optimality", "OptimalityReport",
     "Plan", "PlanChanged", "PlanProposed", "PlanRefused", "PlanUnavailable", "Planner", "Pose",
-    "Reason", "Sample", "Samples", "SeparationLost", "TimeRow", "Times", "Unable",
+    "PromiseChanged", "Reason", "Sample", "Samples", "SeparationLost", "TimeRow", "Times", "Unable",
 }  # fmt: skip
 """What calls give back, and is not asked for."""
 UNIONS = {"Command"}
