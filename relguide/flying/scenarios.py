@@ -12,7 +12,7 @@ leader turns
 - at 870 s, it has joined before.
 
 Only the second is section 5's "very swaying trajectory", so `LEADER_TURNS_AT` is in its middle:
-820 s, 6a joins at 1,016 s with a swing of 191°, 6b at 916 s (planned: 904 s, promised: 917 s) with
+820 s, 6a joins at 1,016 s with a swing of 187°, 6b at 916 s (planned: 904 s, promised: 917 s) with
 46°.
 """
 

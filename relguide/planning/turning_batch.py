@@ -100,7 +100,8 @@ def turning_times(situations: Situations, intents: Intents) -> TurningTimes:
     rows = np.column_stack(situations.full_columns())
     starts = np.concatenate((np.zeros(1, np.int64), np.cumsum(intents.counts)))
     answers = np.empty((len(rows), 2))
-    pieces = intents.unrounded(np.asarray(situations.leader_heading)).pieces
+    headings = np.broadcast_to(np.asarray(situations.leader_heading), len(rows))
+    pieces = intents.unrounded(headings).pieces
     kernel.turning_rows(rows, starts, pieces, HORIZON, answers)
     return TurningTimes(
         answers[:, 0], answers[:, 1] == kernel.OPTIMUM, answers[:, 1] == kernel.ALREADY_LOST
