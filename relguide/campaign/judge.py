@@ -182,7 +182,7 @@ def _why_not(documents: Sequence[Document]) -> str:
 def _join_over_last_promise(changed: Sequence[PlanChanged], joined: Second | None) -> float | None:
     """From the plan last announced until joined, by what it promised; `None` without either."""
     made = [document for document in changed if document.announced]
-    if joined is None or not made or made[-1].t >= joined:
+    if joined is None or not made or made[-1].t >= joined or made[-1].promised <= 0.0:
         return None
     return (joined - made[-1].t) / made[-1].promised
 

@@ -17,11 +17,14 @@ from relguide.flying.logbook import PairNames
 from relguide.flying.perception import Perceived, Perception
 from relguide.flying.world import Link, World
 from relguide.kernels.base.angles import wrap_signed
-from relguide.kernels.flight.flight_records import Body, Drift
+from relguide.kernels.flight.flight_records import Body, Drift, move_to
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
-AS_DECLARED: Metre = 300.0
+AS_DECLARED: Metre = 150.0
 """Reports of a leader in a turn may lag so far behind what it declared [m]."""
+PLACED_BY_REPORTS = 0.1
+"""Share of what its reported place is off that is made good each second: its speed is not known
+exactly, and a turn takes a minute."""
 TURNED_AS_DECLARED: Radian = 15.0 * DEG
 """… and so far behind its heading [rad]."""
 MARGIN_STEP: Metre = 25.0
@@ -146,13 +149,15 @@ class Pursuit:
         if self.reckoned is None:
             return seen
         body, cursor = fleet.fly_declared(self.leader, declared, *self.reckoned, seen.wind, t - 1.0)
-        self.reckoned = body, cursor
         off = hypot(body.x - seen.leader.x, body.y - seen.leader.y)
         turned = abs(wrap_signed(body.heading - seen.leader.heading))
         if off > AS_DECLARED + SEEMS * seen.spread.place or turned > TURNED_AS_DECLARED:
             self.reckoned = None
             return seen
-        return seen._replace(leader=body)
+        x = body.x + PLACED_BY_REPORTS * (seen.leader.x - body.x)
+        y = body.y + PLACED_BY_REPORTS * (seen.leader.y - body.y)
+        self.reckoned = move_to(body, x, y), cursor
+        return seen._replace(leader=self.reckoned[0])
 
 
 def keep_margin(one: Pursuit, belief: Belief) -> None:

@@ -42,7 +42,7 @@ def better(
     sooner = not committed.forecast.joins or (
         found.forecast.joins and found.forecast.join_time < committed.forecast.join_time - margin
     )
-    if least < assignment.min_separation or not sooner:
+    if least < assignment.kept_separation or not sooner:
         return stays
     shown = shown_plan(plan, lead, belief, assignment)
     return Proposal(

@@ -58,7 +58,7 @@ def propose(
         fell_back, refusal = fell_back or answer.fell_back, refusal or answer.refusal
         plan = answer.plan
         if isinstance(plan, NoPlan):
-            if limits and wanted > assignment.min_separation:
+            if limits and wanted > assignment.kept_separation:
                 return _propose_without_buffer(belief, assignment, planner, lead, answer)
             if plan.reason == Reason.SEPARATION_ALREADY_LOST:
                 plan = _refuse_lost(plan, belief, assignment, planner, lead)
@@ -84,8 +84,8 @@ def propose(
 def _propose_without_buffer(
     belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn, wide: FlyableAnswer
 ) -> Proposal | NoProposal:
-    """With d_min alone, where nothing keeps the buffer as well."""
-    limit = assignment.min_separation
+    """With d_min and what is uncertain, where nothing keeps the buffer as well."""
+    limit = assignment.kept_separation
     answer = ask(planner, situation_of(assignment, lead.pursuer, lead.leader, belief, limit))
     fell_back = wide.fell_back or answer.fell_back
     refusal = answer.refusal or wide.refusal
