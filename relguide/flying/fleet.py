@@ -309,19 +309,18 @@ class Fleet:
         return Flown(source.declared[k], int(source.cursors[k]))
 
     def fly_declared(
-        self, j: int, declared: "Flown", body: Body, cursor: int, wind: Drift, t: Second
+        self, j: int, declared: "Flown", body: Body, wind: Drift, t: Second
     ) -> tuple[Body, int]:
         """Aircraft j a second on from flight time t, as it declared, and the piece it then flies.
 
         Args:
             j: which.
-            declared: gives its program.
+            declared: its program, and the piece it flies at t.
             body: it, at t.
-            cursor: the piece it flies then.
             wind: as it is believed.
             t: flight time [s].
         """
-        dt, program = 1.0 / DECLARED_STEPS, declared.program
+        dt, program, cursor = 1.0 / DECLARED_STEPS, declared.program, declared.cursor
         for k in range(DECLARED_STEPS):
             body, cursor = fly_program(
                 program.rows, cursor, program.held, body, self.believed_limits[j], wind,

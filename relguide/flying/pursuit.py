@@ -9,7 +9,7 @@ import numpy as np
 from relguide.flying.aircraft_documents import Loss
 from relguide.flying.belief import SEEMS, SPARE, Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
-from relguide.flying.fleet import Fleet, dependable_deceleration, limits_of
+from relguide.flying.fleet import Fleet, Flown, dependable_deceleration, limits_of
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
@@ -111,8 +111,8 @@ class Pursuit:
     """Whether the separation is below d_min."""
     braked: tuple[MetrePerSecond, ...] = ()
     """The airspeeds of the last seconds, all of them with braking asked for in earnest [m/s]."""
-    reckoned: tuple[Body, int] | None = None
-    """The leader by what it declared, since it last flew straight, and the piece it flies; `None`
+    reckoned: tuple[Body, Flown] | None = None
+    """The leader by what it declared, since it last flew straight, and how far it has come; `None`
     where that is no guide."""
     seen_at: Second = 0.0
     """When that was, flight time [s]."""
@@ -144,11 +144,14 @@ class Pursuit:
         seen = fleet.see(perception, self.pursuer, self.leader, t)
         declared = fleet.declared_by(self.leader, self.declared) if self.known else None
         if declared is None or (seen.leader.bank == 0.0 and declared.is_straight(t)):
-            self.reckoned = None if declared is None else (seen.leader, declared.cursor)
+            self.reckoned = None if declared is None else (seen.leader, declared)
             return seen
         if self.reckoned is None:
             return seen
-        body, cursor = fleet.fly_declared(self.leader, declared, *self.reckoned, seen.wind, t - 1.0)
+        before, flown = self.reckoned
+        if flown.program is not declared.program:  # it was ordered to something else just now
+            flown = declared
+        body, cursor = fleet.fly_declared(self.leader, flown, before, seen.wind, t - 1.0)
         off = hypot(body.x - seen.leader.x, body.y - seen.leader.y)
         turned = abs(wrap_signed(body.heading - seen.leader.heading))
         if off > AS_DECLARED + SEEMS * seen.spread.place or turned > TURNED_AS_DECLARED:
@@ -156,7 +159,7 @@ class Pursuit:
             return seen
         x = body.x + PLACED_BY_REPORTS * (seen.leader.x - body.x)
         y = body.y + PLACED_BY_REPORTS * (seen.leader.y - body.y)
-        self.reckoned = move_to(body, x, y), cursor
+        self.reckoned = move_to(body, x, y), flown._replace(cursor=cursor)
         return seen._replace(leader=self.reckoned[0])
 
 

@@ -212,10 +212,14 @@ def _plan_if_sooner(
     return memory._replace(committed=kept, forecast=ahead), events
 
 
+MAY_MOVE: Metre = 600.0
+"""A slot minutes ahead may seem to move so far, as the leader's velocity is uncertain [m]."""
+
+
 def _slot_slack(belief: Belief, committed: Committed) -> Metre:
     """How far the slot may only seem to have moved, where it will be when the plan ends [m]."""
     left = max(committed.due - belief.t, 0.0)
-    return hypot(belief.place_slack, SEEMS * belief.spread.velocity * left)
+    return belief.place_slack + min(SEEMS * belief.spread.velocity * left, MAY_MOVE)
 
 
 def _is_overdue(memory: Memory, belief: Belief, assignment: Assignment) -> bool:

@@ -6,7 +6,7 @@ speed, with a leader that goes on doing so. An alert begins when separation woul
 `caution` seconds, is a warning when it is lost, and ends some seconds after its cause has.
 """
 
-from math import hypot, inf
+from math import inf
 from typing import NamedTuple
 
 from relguide.flying.belief import SEEMS, Belief
@@ -18,6 +18,8 @@ from relguide.kernels.flight.guide import Course, Progress
 from relguide.planning.phrases import distance
 from relguide.units import Metre, MetrePerSecond, Second
 
+MAY_DRIFT: Metre = 100.0
+"""A leader whose velocity is uncertain may seem to drift so far from where it was expected [m]."""
 URGENCY: dict[AlertState, int] = {"none": 0, "advisory": 1, "caution": 2, "warning": 3}
 """Levels in order."""
 
@@ -49,10 +51,9 @@ def leader_is_as_forecast(ahead: Forecast, belief: Belief, assignment: Assignmen
     """Whether the leader is where a forecast has it, on its heading and at its speed."""
     settings = assignment.settings
     off, turned, faster = ahead.leader_off(belief.t, belief.leader)
-    since = min(belief.t - ahead.t, settings.caution)
+    drifted = SEEMS * belief.spread.velocity * (belief.t - ahead.t)
     return (
-        off
-        <= settings.leader_off + hypot(belief.place_slack, SEEMS * belief.spread.velocity * since)
+        off <= settings.leader_off + belief.place_slack + min(drifted, MAY_DRIFT)
         and turned <= settings.leader_turned + belief.heading_slack
         and faster <= settings.leader_speed + belief.speed_slack
     )

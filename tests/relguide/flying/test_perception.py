@@ -146,3 +146,17 @@ def test_what_is_uncertain_is_kept_beside_d_min() -> None:
     assert kept == pytest.approx(min(wanted, pursuit.assignment.buffered_separation))
     keep_margin(pursuit, belief)
     assert pursuit.assignment.margin == margin
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_orders_to_turn_are_believed_as_they_are_flown_one_after_the_other(seed: int) -> None:
+    # without a new count of pieces, the second order was believed to be over as it was given
+    one, fleet = begun(seed, surveillance=ADSB)
+    for second in range(160):
+        t = float(second)
+        if second in (20, 90):
+            fleet.turn(1, (150.0 if second == 20 else 300.0) * DEG, "left", 25.0 * DEG)
+        seen, leader = one.belief(fleet, t), fleet.body(1)
+        assert hypot(seen.leader.x - leader.x, seen.leader.y - leader.y) < 250.0
+        assert abs(seen.leader.heading - leader.heading) < 6.0 * DEG
+        fleet.fly_second(t)
