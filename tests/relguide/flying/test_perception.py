@@ -155,7 +155,7 @@ def test_orders_to_turn_are_believed_as_they_are_flown_one_after_the_other(seed:
     for second in range(160):
         t = float(second)
         if second in (20, 90):
-            fleet.turn(1, (150.0 if second == 20 else 300.0) * DEG, "left", 25.0 * DEG)
+            fleet.turn(1, (20.0 if second == 20 else 200.0) * DEG, "left", 25.0 * DEG)
         seen, leader = one.belief(fleet, t), fleet.body(1)
         assert hypot(seen.leader.x - leader.x, seen.leader.y - leader.y) < 250.0
         assert abs(seen.leader.heading - leader.heading) < 6.0 * DEG
