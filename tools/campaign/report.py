@@ -31,7 +31,7 @@ from tools.campaign.loops import (
 
 PAGE = DOCS / "flight.md"
 AUTOPILOT, PATH, CAMPAIGN = "flight-autopilot.svg", "flight-path.svg", "flight-campaign.svg"
-SHOWN = {"margins": "loop_margins.csv", "campaign": "campaign.csv"}
+SHOWN = {"margins": "loop_margins.csv", "campaign": "campaign.csv", "mixed": "mixed.csv"}
 """Blocks of the page, and the files that they show."""
 FIGURES = "campaign_figures.csv"
 """What the picture of the campaign is drawn from."""
@@ -76,6 +76,12 @@ def write_campaign(
     show("campaign", page, results)
     folder.mkdir(exist_ok=True)
     pictures.draw_campaign(read_table(FIGURES, results)[1], folder / CAMPAIGN)
+
+
+def write_inexact(rows: Sequence[Row], page: Path = PAGE, results: Path = RESULTS) -> None:
+    """Keep and show the table of flights in which nothing is exact."""
+    write_table(SHOWN["mixed"], tables.INEXACT, tables.inexact(rows), results)
+    show("mixed", page, results)
 
 
 def show(block: str, page: Path = PAGE, results: Path = RESULTS) -> None:

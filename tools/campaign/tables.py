@@ -5,11 +5,16 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from benchmarks.tables import Cells
+from relguide.campaign.campaign_file import DERIVED
 from relguide.campaign.row import FIGURES, Figure, Row
 
 OVERVIEW = (
     "family", "flights", "planned", "joined", "losses, planned", "losses, not planned",
     "of these avoidable", "losses without a word", "circles", "errors", "simulated s per CPU s",
+)  # fmt: skip
+INEXACT = (
+    "the leader", "flights", "joined, %", "join over promise, median and 95 %, %",
+    "plans shown, median and 95 %", "losses with a plan", "without a word",
 )  # fmt: skip
 DISTRIBUTION = "figure", "flights", "mean", "median", "95 %", "99 %", "worst", "in flight"
 
@@ -35,6 +40,27 @@ def _overview_cells(family: str, rows: Sequence[Row]) -> list[str]:
         f"{sum(bool(row.error) for row in rows):,}",
         f"{flown / cpu:,.0f}" if cpu > 0.0 else "",
     ]
+
+
+def inexact(rows: Sequence[Row]) -> Cells:
+    """A line for each family that the family `mixed` draws from."""
+    cells = []
+    for base in DERIVED["mixed"].bases:
+        own = [r for r in rows if DERIVED["mixed"].base(r.number) == base and not r.error]
+        over = [100.0 * (r.join_over_promise - 1.0) for r in own if r.join_over_promise is not None]
+        shown = [r.shown_replans for r in own]
+        cells.append(
+            [
+                base,
+                f"{len(own):,}",
+                f"{100.0 * sum(r.joined for r in own) / len(own):.1f}",
+                f"{np.median(over):.1f}, {np.percentile(over, 95):.1f}",
+                f"{np.median(shown):.0f}, {np.percentile(shown, 95):.0f}",
+                f"{sum(bool(r.losses) for r in own if r.planned)}",
+                f"{sum(r.silent_losses > 0 for r in own)}",
+            ]
+        )
+    return cells
 
 
 def distributions(rows: Sequence[Row]) -> Cells:
