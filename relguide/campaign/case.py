@@ -1,4 +1,4 @@
-"""A flight of a campaign: who flies, in what air, and what guidance is wrong about."""
+"""A flight of a campaign: its aircraft, its air, and what guidance is wrong about."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace

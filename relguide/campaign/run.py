@@ -109,7 +109,7 @@ def fly_campaign(
     Args:
         asked: what to fly.
         out: the folder that keeps the flights.
-        workers: who flies.
+        workers: the processes that fly.
         say: called with a sentence while a cluster has no workers.
 
     Returns:

@@ -122,7 +122,7 @@ class Air:
         return SEA_LEVEL_SOUND_SPEED * _mach_from_impact(impact, SEA_LEVEL_PRESSURE)
 
     def with_error(self, *, wind_error: Wind = CALM, isa_error: float = 0.0) -> "Air":
-        """The air as somebody believes it to be who is wrong by so much, and expects no gusts.
+        """The air with so much error, and without gusts, as guidance may believe it.
 
         Args:
             wind_error: what is added to the wind, at every altitude.

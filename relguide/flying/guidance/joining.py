@@ -1,4 +1,4 @@
-"""What a crew is told in capture and follow: when it joins, and whether the spacing is kept."""
+"""What a crew hears in capture and follow: when it joins, and whether the spacing is kept."""
 
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.announcements import Alerted, Event, NewPromise, clock
