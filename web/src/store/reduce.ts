@@ -1,15 +1,9 @@
 /** What one document changes of what is known: a fold over all documents but the samples. */
 
 import { inPageUnits } from "../units";
-import type {
-  Alert,
-  Document,
-  EngagementChanged,
-  FlightStarted,
-  PlanChanged,
-  Unable,
-} from "../wire";
+import type { Alert, Document, EngagementChanged, FlightStarted, PlanChanged } from "../wire";
 import { isAbout, pairCard, pairResult } from "./pair";
+import { startLower, unableSentence } from "./reading";
 import type { Known, Message } from "./types";
 
 const MESSAGES_KEPT = 200;
@@ -64,7 +58,10 @@ export function reduce(known: Known, document: Document): Known {
     case "alert":
       return reduceAlert(known, document);
     case "unable":
-      return log({ ...known, unable: document }, { t, kind: "unable", text: sentenceOf(document) });
+      return log(
+        { ...known, unable: document },
+        { t, kind: "unable", text: unableSentence(document) },
+      );
     case "separation_lost":
       return log(
         { ...known, lost: document },
@@ -125,16 +122,6 @@ function reduceAlert(known: Known, alert: Alert): Known {
   const alerts = alert.cleared ? others : [...others, alert];
   const kind = alert.cleared ? "clear" : alert.level;
   return log({ ...known, alerts }, { t: alert.t_s, kind, text: alert.message });
-}
-
-/** Why guidance is unable, without the word that stands beside it. */
-function sentenceOf({ message }: Unable): string {
-  const sentence = message.replace(/^Unable: /, "");
-  return sentence.charAt(0).toUpperCase() + sentence.slice(1);
-}
-
-function startLower(sentence: string): string {
-  return sentence.charAt(0).toLowerCase() + sentence.slice(1);
 }
 
 function log(known: Known, { t, kind, text: said }: Message): Known {
