@@ -1,12 +1,13 @@
-/** How the flight goes on: play or pause, restart, rate; and what became of the last command. */
+/** What is flown, how fast, and what became of the last command; play and pause stand by the time. */
 
 import { Choice, Icon, Panel } from "../parts";
 import { type Actions, type Feedback, isFlying, RATES, type Session } from "../session";
+import { clockShown } from "../store/states";
 
 export function FlightControls(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
   const { scenarios, status, flight, feedback } = session;
-  const { rate, paused } = flight.clock.value;
+  const { rate } = clockShown(flight);
   const ended = flight.clock.value.ended || !isFlying(session);
   const flown = status.value?.scenario || null; // empty for a situation of one's own
   const description =
@@ -15,15 +16,6 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
     <Panel name="controls" title="Flight">
       {description !== "" && <p class="hint">{description}</p>}
       <div class="row">
-        <button
-          type="button"
-          class="primary grow"
-          disabled={ended}
-          onClick={() => (paused ? actions.play() : actions.pause())}
-        >
-          <Icon name={paused ? "play" : "pause"} />
-          {paused ? "Play" : "Pause"}
-        </button>
         <button
           type="button"
           class="grow"
