@@ -15,6 +15,13 @@ interface Steps {
 /** Said of a proposal that has taken the place of the accepted path. */
 const LAPSED = "The path has become another one since you accepted it: accept it again.";
 
+/** Why a step is asked for that the crew has done before; "" if it has not. */
+function againText(hasLapsed: boolean, droppedAt: string): string {
+  if (droppedAt !== "")
+    return `Guidance was engaged until the leader was not heard of any more, at ${droppedAt}. Two steps engage it again: Accept, then Engage.`;
+  return hasLapsed ? LAPSED : "";
+}
+
 const STEPS: Record<Guidance, Steps> = {
   off: {
     says: "Designate the leader: here, or by a click on it.",
@@ -38,17 +45,22 @@ const STEPS: Record<Guidance, Steps> = {
   escape: { says: "Guidance turns away from the leader.", next: null, back: "Disconnect" },
   infeasible: { says: "No path to its slot now; it is tried again.", next: null, back: "Cancel" },
   unable: { says: "No path to fly now; it is tried again.", next: null, back: "Disconnect" },
-  data_lost: { says: "Nothing is heard of the leader. You fly.", next: null, back: "Cancel" },
+  data_lost: {
+    says: "Nothing is heard of the leader. The autopilot holds the heading that you select.",
+    next: null,
+    back: "Cancel",
+  },
 };
 
 export function Engage(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
-  const { state, readAt, hasLapsed } = session.shown.numbers.value;
+  const { state, readAt, hasLapsed, droppedAt } = session.shown.numbers.value;
   const { says, next, back } = STEPS[state];
+  const again = state === "proposed" ? againText(hasLapsed, droppedAt) : "";
   const absent = readAt === null || !isFlying(session);
   return (
     <Panel name="engage" title="Relative guidance">
-      <p class="hint">{state === "proposed" && hasLapsed ? LAPSED : says}</p>
+      <p class={`hint ${again === "" ? "" : "again"}`}>{again === "" ? says : again}</p>
       <div class="row">
         <button
           type="button"

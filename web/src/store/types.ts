@@ -78,6 +78,8 @@ export interface Known {
 export interface Seen {
   /** The newest sample, as it came; of a leader that is not heard of, what is expected. */
   readonly sample: PairSample | null;
+  /** The sample of a while ago: what has changed since is news. */
+  readonly before: PairSample | null;
   /** Since when it has joined, and when the minimum was last infringed [s, flight time]. */
   readonly joinedAt: number;
   readonly belowAt: number;
