@@ -24,7 +24,7 @@ const CHROME = "[class*=Notification], [class*=Paper-root] { display: none !impo
 /** How often it is looked whether the scene is drawn [ms]. */
 const LOOK = 200;
 /** Its ground is dark: brighter than this is the vendor's empty page (0 to 255). */
-const DARK = 60;
+const DARK = 160;
 /** Where the picture is looked at, as parts of its sides. */
 const PARTS = [0.1, 0.5, 0.9] as const;
 
