@@ -30,7 +30,7 @@ VIEWS = (CHASE, TOP, SIDE, FREE)
 STANDS = {CHASE: (0.0, 21.0 * DEG), SIDE: (65.0 * DEG, 9.0 * DEG)}
 """How far round from behind own ship to its right a camera stands, and how high [rad]."""
 LEAST_REACH = 10.0
-"""Nearer than this [scene units] the picture would show the aircraft and nothing else."""
+"""Half of what is seen up and down where the nearest of all stands [scene units]."""
 MOVED = 0.004
 """A camera is moved when it would go this far, relative to its distance."""
 SWING = 0.15
@@ -40,6 +40,8 @@ SEEN_TO = 12_000.0
 """Nothing nearer or farther than these is drawn: the sky is at half the second."""
 FARTHEST = 1400.0
 """Further out than this no hand moves the camera."""
+HALVINGS = 8
+"""The middle of the picture is found to a part in 256 of its field."""
 SHAPE = 1.6
 """Width of a window by its height, before its viewer has said so."""
 
@@ -176,13 +178,20 @@ def fit(away: Array, sights: Sights, aspect: float) -> Standpoint:
     def reach(side: Array) -> float:
         return float(np.max((places - middle) @ side + radii * hypot(side[0], side[1])))
 
-    depth = -LEAST_REACH / tan(FOV / 2.0)
-    eye = np.zeros(3)
-    for axis, wide in ((right, high * aspect), (up, high)):
-        plus, minus = reach(axis - wide * forward), reach(-axis - wide * forward)
-        depth = min(depth, -(plus + minus) / (2.0 * wide))
-        eye += axis * (plus - minus) / 2.0
-    target = middle + eye
+    def needed(axis: Array, field: float) -> float:
+        return -(reach(axis - field * forward) + reach(-axis - field * forward)) / (2.0 * field)
+
+    fields = ((right, high * aspect), (up, high))
+    nearest = -reach(-forward) - LEAST_REACH / tan(FOV / 2.0)
+    depth = min(nearest, *(needed(axis, field) for axis, field in fields))
+    target = middle.copy()
+    for axis, whole in fields:
+        # The field that is just filled from there: its middle is the picture's.
+        least, most = 0.0, whole
+        for _ in range(HALVINGS):
+            field = (least + most) / 2.0
+            least, most = (least, field) if needed(axis, field) >= depth else (field, most)
+        target += axis * (reach(axis - most * forward) - reach(-axis - most * forward)) / 2.0
     return Standpoint(_vector(target + depth * forward), _vector(target))
 
 

@@ -317,6 +317,7 @@ class FlightScene:
             self._route.visible = guidance.engagement != "off" and not is_silent(guidance)
         self._ahead = self._path_ahead(t, guidance)
         self._place(pair)
+        self._frame(pair)
 
     def _path_ahead(self, t: Second, guidance: GuidanceSample) -> Array:
         """Places of the committed or proposed path until it joins, from the world's origin."""
@@ -342,8 +343,12 @@ class FlightScene:
         self._figures["leader"].move(pair.leader)
         self._gate.move(pair.guidance, self._height)
         own, leader = place_of(pair.pursuer), place_of(pair.leader)
+        self._world.position = (-(own[0] + leader[0]) / 2.0, -(own[1] + leader[1]) / 2.0, 0.0)
+
+    def _frame(self, pair: _Pair) -> None:
+        """Keep in the picture what matters: both, the minimum round the leader, the path ahead."""
+        own, leader = place_of(pair.pursuer), place_of(pair.leader)
         middle = ((own[0] + leader[0]) / 2.0, (own[1] + leader[1]) / 2.0, 0.0)
-        self._world.position = (-middle[0], -middle[1], 0.0)
         places = np.vstack((own, leader, self._ahead)) - middle
         radii = np.zeros(len(places))
         radii[:2] = self._length / 2.0, self._minimum.reach

@@ -10,6 +10,7 @@ from relguide_server.scene.camera import (
     CHASE,
     FOV,
     FREE,
+    LEAST_REACH,
     ROOM,
     SIDE,
     VIEWS,
@@ -66,12 +67,15 @@ def test_both_aircraft_the_minimum_and_the_join_are_in_the_picture(
         around = leader + shapes.circle(9.26)
         feet = [own * (1, 1, 0), leader * (1, 1, 0)] if view == SIDE else []
         places = np.array([own, leader, *around, *ahead, *feet])
-        seen = seen_of(cameras.standpoint(view, aspect), places, aspect)
+        standpoint = cameras.standpoint(view, aspect)
+        seen = seen_of(standpoint, places, aspect)
         assert np.abs(seen).max() <= ROOM + 1e-9
-        if np.hypot(x, y) < 30.0:
-            continue  # nearer than the least reach
-        # no farther away than it must be: the picture is full from side to side, or up and down
-        assert np.ptp(seen, axis=0).max() > 1.6 * ROOM
+        assert (np.abs(seen.max(axis=0) + seen.min(axis=0)) < 0.02).all()
+        # no farther away than it must be: full from side to side, or up and down, or one is close
+        forward = np.subtract(standpoint.target, standpoint.eye)
+        depth = (places - standpoint.eye) @ forward / np.linalg.norm(forward)
+        close = depth.min() < 1.001 * LEAST_REACH / tan(FOV / 2.0)
+        assert close or np.ptp(seen, axis=0).max() > 1.9 * ROOM
 
 
 def test_the_side_has_both_down_to_the_ground_and_the_heights_fill_it(
