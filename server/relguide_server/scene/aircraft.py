@@ -20,7 +20,9 @@ SHARE = 0.3
 ENLARGED_STEP = 5.0
 """The page writes how much it is: in whole steps."""
 LEVELS = 10_000.0 * FT
-"""From one mark of the altitude scale to the next, on the lines down to the ground [m]."""
+"""From one mark of the altitude scale to the next, on the lines down to the ground [m] …"""
+HIDDEN = 0.3
+"""… and none so near below the aircraft [levels]."""
 TRAIL_PERIOD = 10.0
 """Flight time between two marks of where an aircraft has been [s], as on the navigation display."""
 TRAIL_MARKS = 480
@@ -93,9 +95,9 @@ def enlargement(separation: Metre) -> float:
 
 
 def _drop(height: float) -> Points:
-    """The line down to the ground, with a cross at each level of the altitude scale."""
+    """The line down to the ground, with a cross at each level that the aircraft does not hide."""
     step = LEVELS / KM * ALTITUDE_SCALE
-    return shapes.drop(height, FOOT, np.arange(step, height, step).tolist())
+    return shapes.drop(height, FOOT, np.arange(step, height - HIDDEN * step, step).tolist())
 
 
 def height_of(now: AircraftSample) -> float:

@@ -7,7 +7,7 @@ camera, which belongs to the viewer, then follows the flight without being moved
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import cos, sin
+from math import cos, inf, sin
 from typing import NamedTuple, assert_never
 
 import numpy as np
@@ -173,6 +173,7 @@ class FlightScene:
                 if document.ident == link.pursuer:
                     self._forecast = document
                     self._draw_forecast(document.t)
+                    self._drawn_from = -inf  # the next sample says when it joins
             case Sample():
                 self._sample(document.t, _pair(document, link), cast)
             case LeaderChanged() | ModeChanged() | SeparationLost() | FlightEnded():
@@ -253,10 +254,21 @@ class FlightScene:
                 self._scene.remove_by_name(name)
             return
         columns = (forecast.times, forecast.x, forecast.y)
-        points = shapes.timed_points(*columns, height=self._own_height, since=t)
+        points = shapes.timed_points(
+            *columns, height=self._own_height, since=t, until=self._drawn_until(t)
+        )
         lines(self._scene, "/world/forecast", shapes.polyline(points), paint.PLAN, 3.0)
         shadow = shapes.polyline(points * (1.0, 1.0, 0.0))
         lines(self._scene, "/world/forecast_shadow", shadow, paint.PLAN_SHADOW, 1.5)
+
+    def _drawn_until(self, t: Second) -> Second:
+        """Up to when the path is drawn: the join, or once joined where the leader is now."""
+        if self._pair is None or self._cast is None:
+            return inf
+        guidance, leader = self._pair.guidance, self._pair.leader
+        if guidance.mode == "follow":
+            return t + self._cast.link.slot_distance / max(1.0, leader.ground_speed)
+        return t + guidance.time_to_go if guidance.time_to_go > 0.0 else inf
 
     def _draw_closest(self, t: Second, guidance: GuidanceSample) -> None:
         """Where both are when they are closest, while that is to come and is not the join."""

@@ -4,7 +4,7 @@ Scene frame: x east, y north, z up, 1 unit = 1 km. Body frame: x forward, y left
 """
 
 from collections.abc import Sequence
-from math import cos, hypot, pi, sin
+from math import cos, hypot, inf, pi, sin
 from typing import Literal
 
 import numpy as np
@@ -145,7 +145,13 @@ def path_points(
 
 
 def timed_points(
-    times: Sequence[float], x: Sequence[float], y: Sequence[float], *, height: float, since: float
+    times: Sequence[float],
+    x: Sequence[float],
+    y: Sequence[float],
+    *,
+    height: float,
+    since: float,
+    until: float = inf,
 ) -> Points:
     """Points along a path that is known by places at times, from one time on [scene units].
 
@@ -154,7 +160,8 @@ def timed_points(
         x: east of each [m].
         y: north of each [m].
         height: z of all points [scene units].
-        since: what was flown before is left out [s].
+        since: what was flown before is left out [s] …
+        until: … and what will be flown after.
     """
     steps = np.diff(times)
     lengths = np.hypot(np.diff(x), np.diff(y))
@@ -162,7 +169,7 @@ def timed_points(
     counts = np.maximum(np.ceil(lengths / LONGEST).astype(int), 1)
     pieces = zip(times[:-1], steps, counts, strict=True)
     at = np.concatenate([t + dt * np.arange(n) / n for t, dt, n in pieces] + [times[-1:]])
-    at = np.concatenate(([since], at[at > since]))
+    at = np.concatenate(([since], at[(at > since) & (at < until)], [min(until, times[-1])]))
     plane = np.column_stack((np.interp(at, times, x), np.interp(at, times, y))) / KM
     return np.column_stack((plane, np.full(len(plane), height)))
 

@@ -132,6 +132,7 @@ def test_the_flown_part_of_the_path_goes(
     scene.draw([replace(sample, t=120.0, guidance=(guidance,))])
     points = np.asarray(nodes(viser_server)["/world/forecast"].points)
     assert points[0, 0, 0] == pytest.approx((ahead.x[0] + 24_000.0) / 1000.0, abs=0.01)
+    assert points[-1, 1, 0] == pytest.approx((ahead.x[0] + 240.0 * 601.0) / 1000.0, abs=0.01)
     joined = replace(guidance, time_to_go=0.0)
     scene.draw([replace(sample, t=901.0, guidance=(joined,))])
     assert "/world/forecast" not in nodes(viser_server)

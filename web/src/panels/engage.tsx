@@ -42,31 +42,40 @@ const STEPS: Record<Guidance, Steps> = {
 };
 
 export function Engage(props: { session: Session; actions: Actions }) {
-  const { session, actions } = props;
-  const { state, readAt, hasLapsed } = session.shown.numbers.value;
-  const { says, next, back } = STEPS[state];
-  const absent = readAt === null || !isFlying(session);
+  const { state, hasLapsed } = props.session.shown.numbers.value;
   return (
     <Panel name="engage" title="Relative guidance">
-      <p class="hint">{state === "proposed" && hasLapsed ? LAPSED : says}</p>
+      <p class="hint">{state === "proposed" && hasLapsed ? LAPSED : STEPS[state].says}</p>
       <div class="row">
-        <button
-          type="button"
-          class="primary grow"
-          disabled={absent || next === null}
-          onClick={() => next !== null && actions.engage(next.to)}
-        >
-          {next?.text ?? "Engage"}
-        </button>
-        <button
-          type="button"
-          class="grow"
-          disabled={absent || back === ""}
-          onClick={() => actions.engage("off")}
-        >
-          {back === "" ? "Cancel" : back}
-        </button>
+        <EngageButtons {...props} />
       </div>
     </Panel>
+  );
+}
+
+/** The next step, and the way back. */
+export function EngageButtons({ session, actions }: { session: Session; actions: Actions }) {
+  const { state, readAt } = session.shown.numbers.value;
+  const { next, back } = STEPS[state];
+  const absent = readAt === null || !isFlying(session);
+  return (
+    <>
+      <button
+        type="button"
+        class="primary grow"
+        disabled={absent || next === null}
+        onClick={() => next !== null && actions.engage(next.to)}
+      >
+        {next?.text ?? "Engage"}
+      </button>
+      <button
+        type="button"
+        class="grow"
+        disabled={absent || back === ""}
+        onClick={() => actions.engage("off")}
+      >
+        {back === "" ? "Cancel" : back}
+      </button>
+    </>
   );
 }
