@@ -73,7 +73,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
         ) : (
           <section class="workstation" aria-label="Scene and panels">
             <div class="beside">
-              <Scene session={session} />
+              <Scene session={session} actions={actions} />
               <OutageNotice session={session} actions={actions} />
             </div>
             <div class="panels">

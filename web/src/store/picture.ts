@@ -115,7 +115,9 @@ export interface Picture {
   readonly trend: readonly TrendPoint[];
   readonly route: LeaderRoute | null;
   readonly wind: Vector;
+  /** Where the leader has been, while it is designated; and own ship. */
   readonly trail: readonly TrailPoint[];
+  readonly ownTrail: readonly TrailPoint[];
   /** The last plan, flown or not. */
   readonly plan: PlanChanged | null;
   /** The plan whose points are shown: flown, or proposed. */
@@ -214,6 +216,7 @@ export function pictureOf(flight: Moment): Picture {
     route: now === null || !designated || !known.guidance ? null : flight.route,
     wind: windOver(flight),
     trail: now === null || !designated ? NO_TRAIL : flight.trail.leader,
+    ownTrail: now === null ? NO_TRAIL : flight.trail.pursuer,
     plan: guided === null ? null : flight.plan,
     flown,
     superseded: guided === null ? null : supersededPlan(flight),
