@@ -9,7 +9,7 @@ A flight has any number of aircraft, known by their idents, and of links, each a
 leader. What is new in a flight is a new kind of document, or one more member of a list in it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from relguide.flying.aircraft_documents import (
@@ -27,6 +27,7 @@ from relguide.flying.guidance.announcements import PlanReason as PlanReason
 from relguide.flying.guidance.announcements import UnableReason as UnableReason
 from relguide.flying.modes import Mode as Mode
 from relguide.flying.plan_documents import (
+    ADDED,
     NoPlanCard,
     OtherPathCard,
     PathPoint,
@@ -202,6 +203,8 @@ class PromiseChanged:
     """The pursuer's."""
     promised: Second
     """How long until joined, braking included: as forecast by flying the closed loop ahead."""
+    was: Second = field(default=0.0, metadata=ADDED)
+    """The same as was last said, counted from now; negative if that instant has passed."""
     message: str
     kind: Literal["promise_changed"] = "promise_changed"
 

@@ -228,8 +228,10 @@ def event_document(t: Second, names: PairNames, event: Event) -> Document:
                 previous=event.previous,
                 message=event.message,
             )
-        case NewPromise(joins=joins):
-            return PromiseChanged(t=t, ident=ident, promised=joins - t, message=event.message)
+        case NewPromise(joins=joins, was=was):
+            return PromiseChanged(
+                t=t, ident=ident, promised=joins - t, was=was - t, message=event.message
+            )
         case Alerted():
             return Alert(
                 t=t,

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-f1d48433680d";
+export const PROTOCOL = "relguide-bd502a502bb3";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -865,6 +865,8 @@ export interface PromiseChanged {
   ident: string;
   /** How long until joined, braking included: as forecast by flying the closed loop ahead. */
   promised_s: number;
+  /** The same as was last said, counted from now; negative if that instant has passed. */
+  was_s?: number;
   message: string;
 }
 
