@@ -292,6 +292,44 @@ class ForecastChanged:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FanJoin:
+    """Where a pursuer would join if its leader began a turn now."""
+
+    turn: Radian
+    """To the right of where the leader flies now; negative to the left."""
+    joins: Second
+    """When, flight time."""
+    x: Metre
+    """East."""
+    y: Metre
+    """North."""
+    least: Metre
+    """Least separation on the way, as forecast."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FanChanged:
+    """Where a pursuer would join after turns that its leader may begin and has not announced.
+
+    Said where somebody watches, while the leader's intent is not known and a path is proposed or
+    flown. What is saved is how much sooner it joins if it knows of a turn a minute before it begins
+    than if it learns of it as it begins; both are forecast by flying the closed loop ahead.
+    """
+
+    t: Second
+    ident: str
+    """The pursuer's."""
+    joins: tuple[FanJoin, ...]
+    """For turns of −30°, −20° … 30°; those after which there is no path are left out. None at all
+    once the intent is known, or the pursuer has joined: the fan is closed."""
+    most_saved: Second
+    """By knowing the turn for which that saves the most; 0 where nothing is saved."""
+    mean_saved: Second
+    """On average of all these turns."""
+    kind: Literal["fan_changed"] = "fan_changed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Sample:
     """The flight at one instant."""
 
@@ -331,6 +369,7 @@ Document = (
     | Unable
     | SeparationLost
     | ForecastChanged
+    | FanChanged
     | Sample
     | FlightEnded
 )

@@ -26,6 +26,8 @@ from relguide.flying.documents import (
     Alert,
     Document,
     EngagementChanged,
+    FanChanged,
+    FanJoin,
     ForecastChanged,
     LeaderRoute,
     ModeChanged,
@@ -49,6 +51,7 @@ from relguide.flying.guidance.announcements import (
     ProposedPlan,
     UnableTo,
 )
+from relguide.flying.guidance.fan import Fan
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import Advice
 from relguide.flying.plan_documents import PathPoint
@@ -280,6 +283,20 @@ def forecast_document(t: Second, ident: str, ahead: Forecast) -> ForecastChanged
         least_separation=least if least < inf else hypot(own.x - leader.x, own.y - leader.y),
         pursuer_at_closest=own,
         leader_at_closest=leader,
+    )
+
+
+def fan_document(t: Second, names: PairNames, fan: Fan) -> FanChanged:
+    """Where a pursuer would join after turns that its leader has not announced."""
+    return FanChanged(
+        t=t,
+        ident=names.pursuer,
+        joins=tuple(
+            FanJoin(turn=join.turn, joins=join.joins, x=join.x, y=join.y, least=join.least)
+            for join in fan.joins
+        ),
+        most_saved=fan.most_saved,
+        mean_saved=fan.mean_saved,
     )
 
 
