@@ -44,7 +44,7 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
         PathPoint,
         PlanCard,
     )
-    from relguide.flying.verdicts import OptimalityCheck, RegularCheck
+    from relguide.flying.verdicts import OptimalityCheck, PlannerVerdict, RegularCheck
 
     Card = (
         PlanCard
@@ -52,6 +52,7 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
         | PathPoint
         | AnyAlternativeCard
         | OtherPathCard
+        | PlannerVerdict
         | OptimalityCheck
         | RegularCheck
         | AircraftCard
