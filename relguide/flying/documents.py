@@ -288,6 +288,9 @@ class ForecastChanged:
     """Where the aircraft is when the separation is least."""
     leader_at_closest: PathPoint
     """Where its leader is then."""
+    aside: tuple[Metre, ...] = field(default=(), metadata=ADDED)
+    """How far to either side of the line it may come at each point, by what is not certain of the
+    leader's track and of the wind (2 σ of what is believed now); none where all is exact."""
     kind: Literal["forecast_changed"] = "forecast_changed"
 
 

@@ -243,7 +243,7 @@ def _guide(one: Pursuit, fleet: Fleet, guide: Guide, fan: Fan, t: Second) -> Ite
         yield document
     if advice.forecast is not None and advice.forecast is not one.shown_forecast:
         one.shown_forecast = advice.forecast
-        yield forecast_document(t, one.names.pursuer, advice.forecast)
+        yield forecast_document(t, one.names.pursuer, advice.forecast, belief.spread)
     if advice.joined and not one.metrics.joined:
         one.metrics = one.metrics._replace(joined=True, join_time=t)
     one.advice = advice

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-355acf59386e";
+export const PROTOCOL = "relguide-3b25c045d4a9";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -493,6 +493,11 @@ export interface ForecastChanged {
   pursuer_at_closest: PathPoint;
   /** Where its leader is then. */
   leader_at_closest: PathPoint;
+  /**
+   * How far to either side of the line it may come at each point, by what is not certain of the
+   * leader's track and of the wind (2 σ of what is believed now); none where all is exact.
+   */
+  aside_m?: number[];
   /** WGS84; there if the situation came with latitudes. */
   lat_deg?: number[];
   /** WGS84; there if the situation came with latitudes. */
