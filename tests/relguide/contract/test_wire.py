@@ -125,6 +125,7 @@ def test_columns_and_times_that_may_be_missing() -> None:
         "least_separation_m": 9e3,
         "pursuer_at_closest": {"t_s": 10.0, "x_m": 1.0, "y_m": 3.0, "heading_deg": 0.0},
         "leader_at_closest": {"t_s": 10.0, "x_m": 1.0, "y_m": 9e3, "heading_deg": 0.0},
+        "aside_m": [],
     }
     lost = SeparationLost(
         t=5.0, ident="RG 06", other="LDR 01", separation=9e3, x=0.0, y=1.0, cause="", announced=()
