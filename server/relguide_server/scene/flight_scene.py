@@ -24,6 +24,7 @@ from relguide.flying.documents import (
     Alert,
     Document,
     EngagementChanged,
+    FanChanged,
     FlightEnded,
     FlightStarted,
     ForecastChanged,
@@ -185,7 +186,7 @@ class FlightScene:
             case EngagementChanged():
                 if document.ident == link.pursuer:
                     self._change_engagement(document)
-            case PlanRefused() | PromiseChanged() | Alert() | Unable():
+            case PlanRefused() | PromiseChanged() | FanChanged() | Alert() | Unable():
                 pass  # for the navigation display
             case _:
                 assert_never(document)
