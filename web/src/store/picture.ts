@@ -3,7 +3,7 @@
  * and the time of the view. The display, the panels and the scene's poster read it and compute nothing.
  */
 
-import { computed, type ReadonlySignal } from "@preact/signals";
+import { computed, type ReadonlySignal, signal } from "@preact/signals";
 import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometry";
 import { KT, NM } from "../units";
 import type {
@@ -30,6 +30,7 @@ import {
 } from "./committed";
 import { describe } from "./description";
 import { STALE_AGE } from "./flight";
+import type { Ghost } from "./ghost";
 import { type Moved, moveAircraft, movedBy, STILL } from "./motion";
 import { type Notice, noticesOf } from "./notices";
 import { type Numbers, numbersOf, ROLL_IN } from "./numbers";
@@ -153,13 +154,20 @@ export interface Shown {
   readonly numbers: ReadonlySignal<Numbers>;
   /** The picture in words. */
   readonly words: ReadonlySignal<string>;
+  /** Another flight that is seen beside this one; null if there is none. */
+  readonly ghost: ReadonlySignal<Ghost | null>;
 }
+
+const NO_GHOST: ReadonlySignal<Ghost | null> = signal(null);
 
 /** A new mode is boxed this long, and the plan before is shown [s]. */
 const BOXED = 10;
 const SUPERSEDED_SHOWN = 3;
 
-export function createShown({ moment, read, since, isSent }: Flight): Shown {
+export function createShown(
+  { moment, read, since, isSent }: Flight,
+  ghost: Shown["ghost"] = NO_GHOST,
+): Shown {
   const numbers = computed(() => numbersOf(read.value));
   return {
     picture: computed(() => pictureOf({ ...moment.value, isSent: isSent.value })),
@@ -169,6 +177,7 @@ export function createShown({ moment, read, since, isSent }: Flight): Shown {
     }),
     numbers,
     words: computed(() => describe(read.value, numbers.value)),
+    ghost,
   };
 }
 
