@@ -18,6 +18,7 @@ from relguide.contract.bodies import (
     NamedSituationBody,
     SituationBody,
     Unanchored,
+    path_to_wire,
     situation_from_body,
 )
 from relguide.contract.bulk import answer_line
@@ -26,6 +27,7 @@ from relguide.contract.messages import FlightRequest
 from relguide.contract.recorder import recording_of
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.flight import fly
+from relguide.flying.verdicts import ComparedPlanner
 from relguide.learn.planners import make_planner
 from relguide.learn.words.area_words import area_words
 from relguide.learn.words.branch_network import BranchNetwork, load_network
@@ -154,6 +156,21 @@ def plan_situation(
     except ContractError as error:
         raise refusal_of(error) from None
     return _answered(given, started)
+
+
+def compare_planners(
+    body: bytes, among: Sequence[ComparedPlanner], deadline: Second
+) -> list[dict[str, Any]]:
+    """What each planner would fly in the situation of a request, as JSON objects.
+
+    Raises:
+        Refusal: if it is no situation.
+    """
+    from relguide.learn.comparison import compare  # loads networks, which few ask for
+
+    situation, anchor = read_situation(body)
+    found = compare(situation, among=among, deadline=deadline)
+    return [path_to_wire(verdict, anchor) for verdict in found]
 
 
 def split_batch(body: bytes) -> list[bytes]:
