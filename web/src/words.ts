@@ -54,6 +54,12 @@ export const ELEMENTS: readonly Element[] = [
     "key-leader-symbol",
   ),
   element(
+    "other",
+    "Other flight",
+    "the one this is compared with: its path so far dashed, its aircraft broken; the path of this one thin",
+    "key-other",
+  ),
+  element(
     "offscale",
     "Leader off the map",
     "half a symbol in its direction, with bearing and distance",

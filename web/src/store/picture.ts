@@ -3,7 +3,7 @@
  * and the time of the view. The display, the panels and the scene's poster read it and compute nothing.
  */
 
-import { computed, type ReadonlySignal } from "@preact/signals";
+import { computed, type ReadonlySignal, signal } from "@preact/signals";
 import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometry";
 import { KT, NM } from "../units";
 import type {
@@ -31,6 +31,7 @@ import {
 } from "./committed";
 import { describe } from "./description";
 import { STALE_AGE } from "./flight";
+import type { Ghost } from "./ghost";
 import { type Moved, moveAircraft, movedBy, STILL } from "./motion";
 import { type Notice, noticesOf } from "./notices";
 import { type Numbers, numbersOf, ROLL_IN } from "./numbers";
@@ -162,12 +163,19 @@ export interface Shown {
   readonly words: ReadonlySignal<string>;
   /** What is spoken of it. */
   readonly spoken: ReadonlySignal<Announcements>;
+  /** Another flight that is seen beside this one; null if there is none. */
+  readonly ghost: ReadonlySignal<Ghost | null>;
 }
+
+const NO_GHOST: ReadonlySignal<Ghost | null> = signal(null);
 
 /** The plan before is shown this long [s]. */
 const SUPERSEDED_SHOWN = 3;
 
-export function createShown({ moment, read, since, isSent }: Flight): Shown {
+export function createShown(
+  { moment, read, since, isSent }: Flight,
+  ghost: Shown["ghost"] = NO_GHOST,
+): Shown {
   const numbers = computed(() => numbersOf(read.value));
   return {
     picture: computed(() => pictureOf({ ...moment.value, isSent: isSent.value })),
@@ -178,6 +186,7 @@ export function createShown({ moment, read, since, isSent }: Flight): Shown {
     numbers,
     words: computed(() => describe(read.value, numbers.value)),
     spoken: computed(() => announcementsOf(read.value)),
+    ghost,
   };
 }
 
