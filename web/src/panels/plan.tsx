@@ -141,7 +141,7 @@ function whenClosest({ when, left }: LeastAhead): string {
 }
 
 function SafetyReadings(props: { numbers: Numbers; isIntentKnown: boolean | null }) {
-  const { least, plan, leastSoFar, wasLost, minSeparation, margin } = props.numbers;
+  const { least, plan, leastSoFar, wasLost, minSeparation, margin, saving } = props.numbers;
   const known = props.isIntentKnown;
   return (
     <>
@@ -169,6 +169,7 @@ function SafetyReadings(props: { numbers: Numbers; isIntentKnown: boolean | null
         label="Leader intent"
         value={known === null ? "––" : known ? "YES" : "NO"}
         tone={known === false ? "plain" : "value"}
+        {...(saving !== "" && { note: `known a minute ahead it saves up to ${saving}` })}
       />
       {plan !== null && (
         <Reading

@@ -4,6 +4,7 @@ import type { Signal } from "@preact/signals";
 import type {
   Alert,
   EngagementChanged,
+  FanChanged,
   ForecastChanged,
   LeaderRoute,
   LinkResult,
@@ -55,6 +56,8 @@ export interface Known {
   readonly proposal: PlanProposed | null;
   /** The path that own ship will really fly, whatever its mode. */
   readonly forecast: ForecastChanged | null;
+  /** Joins after turns that the leader has not announced; null while it is known what it flies. */
+  readonly fan: FanChanged | null;
   /** The plan before, and the flight time [s] at which another took its place. */
   readonly superseded: { readonly plan: PlanChanged; readonly at: number } | null;
   /** Set while the last answer was "no plan". */
