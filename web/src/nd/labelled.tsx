@@ -13,6 +13,7 @@ import { captureLabel } from "./capture";
 import { circleLabel } from "./circle";
 import { closestLabel } from "./closest";
 import { FAN_IDS, fanLabels } from "./fan";
+import { ghostLabels } from "./ghost";
 import { intentLabels } from "./intent";
 import { type Label, LINE_HEIGHT, type Placement, placeLabels } from "./labels";
 import { type LayerProps, usePart } from "./layer";
@@ -35,6 +36,7 @@ function labelsOf(props: LayerProps): Label[] {
     proposalLabel(props),
     closestLabel(props),
     circleLabel(props),
+    ...ghostLabels(props),
     ...turnLabels(props),
     ...intentLabels(props),
     ...minuteLabels(props),
@@ -50,6 +52,8 @@ const IDS = [
   "proposal",
   "closest",
   "circle",
+  "other",
+  "other leader",
   ...[1, 2, 3, 4, 5, 6, 7, 8].map((i) => `T${i}`),
   "intent",
   ...[0, 1, 2].map((i) => `leg ${i}`),

@@ -15,6 +15,7 @@ import { Fan } from "./fan";
 import { FinalTrack } from "./final";
 import { Flags } from "./flags";
 import { ModeStrip } from "./fma";
+import { OtherFlight } from "./ghost";
 import { LeaderHistory } from "./history";
 import { LeaderIntent } from "./intent";
 import { CarriedLabels, Labels } from "./labelled";
@@ -51,7 +52,7 @@ interface Sheet {
 
 /** The world, bottom to top, by what each part of it moves with. */
 const MAP_SHEETS: readonly Sheet[] = [
-  { by: "map", layers: [LeaderIntent, LeaderHistory, Fan] },
+  { by: "map", layers: [OtherFlight, LeaderIntent, LeaderHistory, Fan] },
   { by: "leader", layers: [SeparationCircle, MarginCircle] },
   {
     by: "map",

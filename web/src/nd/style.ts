@@ -23,6 +23,8 @@ export const LINES = {
   ghost: { colour: "superseded", width: 1.5, dash: "3 6" },
   fan: { colour: "superseded", width: 1.25, dash: "1 6" },
   tube: { colour: "plan", width: 1, dash: "2 6" },
+  other: { colour: "superseded", width: 2, dash: "9 6" },
+  beside: { colour: "superseded", width: 1.5, dash: "" },
   superseded: { colour: "superseded", width: 2.5, dash: "2 11" },
   final: { colour: "plan", width: 1.75, dash: "20 9" },
   declared: { colour: "leader", width: 2, dash: "12 4 2 4" },

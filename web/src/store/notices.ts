@@ -12,7 +12,16 @@ import type {
 } from "../wire";
 import type { Colour } from "./colours";
 import { AGE, GUIDANCE } from "./state-styles";
-import { age, type Guidance, guidance, hasLapsed, isRecent, leaderAge, separation } from "./states";
+import {
+  age,
+  type Guidance,
+  guidance,
+  hasLapsed,
+  isRecent,
+  leaderAge,
+  separation,
+  wasDropped,
+} from "./states";
 import type { Moment } from "./types";
 
 export interface Notice {
@@ -143,6 +152,7 @@ function promptOf(flight: Moment, state: Guidance): Notice | null {
       return { level: "advice", text: `LDR ${ident} ${apart} NM` };
     }
     case "proposed":
+      if (wasDropped(flight)) return { level: "prompt", text: "RG WAS ON – ACCEPT, ENGAGE" };
       if (hasLapsed(flight)) return { level: "prompt", text: "PATH CHANGED – ACCEPT AGAIN" };
       return { level: "prompt", text: "CONV PROPOSED – CONFIRM" };
     case "armed":
