@@ -87,7 +87,7 @@ describe("panels", () => {
         <Aircraft session={session} actions={silentActions()} />
         <Alternatives session={session} />
         <Events session={session} />
-        <Scene session={session} />
+        <Scene session={session} actions={silentActions()} />
       </>,
       place,
     );
@@ -368,7 +368,7 @@ describe("panels", () => {
   test("the scene is asked for once there is a position", () => {
     const { session } = flying();
     const aside = document.createElement("div"); // outside the document, so that nothing is loaded
-    render(<Scene session={session} />, aside);
+    render(<Scene session={session} actions={silentActions()} />, aside);
     expect(aside.querySelector("iframe")?.getAttribute("src")).toBe("/scene/one/");
     expect(aside.querySelector("iframe")?.title).not.toBe("");
   });

@@ -42,8 +42,8 @@ SEEN_TO = 12_000.0
 """Nothing nearer or farther than these is drawn: the sky is at half the second."""
 FARTHEST = 1400.0
 """Further out than this no hand moves the camera."""
-HALVINGS = 8
-"""The middle of the picture is found to a part in 256 of its field."""
+HALVINGS = 10
+"""The middle of the picture is found to a part in a thousand of its field."""
 SHAPE = 1.6
 """Width of a window by its height, before its viewer has said so."""
 

@@ -54,7 +54,7 @@ const FOCAL = 1 / Math.tan(FOV / 2);
 const ROOM = 0.76;
 const NEAREST = 10;
 const CLEAR = 8;
-const HALVINGS = 8;
+const HALVINGS = 10;
 /** How far round from behind own ship to its right a camera stands, and how high [deg]. */
 const STANDS = { Chase: { round: 0, elevation: 21 }, Side: { round: 65, elevation: 9 } } as const;
 /** North is up, and the camera so little beside the zenith that it knows it [deg]. */
