@@ -8,6 +8,7 @@ import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometr
 import { KT, NM } from "../units";
 import type {
   AircraftSample,
+  FanChanged,
   ForecastChanged,
   LeaderRoute,
   PathPoint,
@@ -127,6 +128,8 @@ export interface Picture {
   readonly proposed: PlanProposed | null;
   readonly superseded: PlanChanged | null;
   readonly forecast: ForecastChanged | null;
+  /** Joins after turns that the leader has not announced, while a path is proposed or flown. */
+  readonly fan: FanChanged | null;
   /** Up to when the path is drawn [s, flight time]. */
   readonly until: number;
   readonly turns: readonly TurnAhead[];
@@ -230,6 +233,7 @@ export function pictureOf(flight: Moment): Picture {
     flown,
     superseded: guided === null ? null : supersededPlan(flight),
     forecast: flight.forecast,
+    fan: isAhead && known.guidance ? flight.fan : null,
     until: shownUntil(flight, guided),
     turns: flown === null ? [] : turnsAhead(flight, flown),
     minutes: flown === null ? [] : minutesAhead(flight, flown),
