@@ -9,7 +9,9 @@ export function followRange({ shown, ndAuto, ndMode, ndRange }: Session): void {
     const mode = ndMode.value;
     if (!ndAuto.value || mode === "PLAN" || shown.numbers.value.readAt === null) return;
     untracked(() => {
-      const { pose, places } = shown.picture.value;
+      const { pose, places: own } = shown.picture.value;
+      const ghost = shown.ghost.value;
+      const places = ghost === null ? own : [...own, ghost.pursuer];
       if (pose !== null && places.length > 0)
         ndRange.value = fittingRange(mode, pose, places, ndRange.value);
     });
