@@ -3,7 +3,7 @@
 from math import cos, sin
 
 import numpy as np
-from viser import SceneApi
+from viser import LineSegmentsHandle, SceneApi
 
 from relguide.flying.aircraft_documents import AircraftSample
 from relguide.units import FT, Metre, Second
@@ -37,10 +37,13 @@ class AircraftFigure:
     """What is drawn for one aircraft, under `/world/{name}`."""
 
     def __init__(self, scene: SceneApi, name: str, colour: Colour, first: AircraftSample) -> None:
+        self._scene = scene
+        self._root = f"/world/{name}"
         self._height = height_of(first)
+        self._colour = colour
         self._marks: list[Points] = []
         self._marked_t = -TRAIL_PERIOD
-        root = f"/world/{name}"
+        root = self._root
         self._place = scene.add_frame(root, show_axes=False)
         self._body = scene.add_frame(f"{root}/body", show_axes=False)
         vertices, faces = shapes.airliner()
@@ -54,16 +57,20 @@ class AircraftFigure:
             scale=LENGTH / KM * ENLARGED,
             cast_shadow=False,
         )
-        self._drop = lines(scene, f"{root}/drop", _drop(self._height), colour, 1.2)
+        self._drop = self._draw_drop()
         self._past = lines(scene, f"/world/{name}_past", np.zeros((1, 2, 3)), dim(colour, 0.7), 2.5)
 
     def show(self, colour: Colour, enlarged: float) -> None:
         """Give it a colour, and its size in the picture."""
-        if tuple(self._mesh.color) != colour:
-            self._mesh.color = colour
+        if colour != self._colour:
+            self._colour = self._mesh.color = colour
+            self._drop = self._draw_drop()
         scale = LENGTH / KM * enlarged
         if self._mesh.scale != scale:
             self._mesh.scale = scale
+
+    def _draw_drop(self) -> LineSegmentsHandle:
+        return lines(self._scene, f"{self._root}/drop", _drop(self._height), self._colour, 1.2)
 
     def hide(self, hidden: bool) -> None:
         """Take it out of the picture with all that hangs on it, or put it back."""

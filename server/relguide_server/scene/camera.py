@@ -29,8 +29,10 @@ VIEWS = (CHASE, TOP, SIDE, FREE)
 """Behind own ship towards the leader; north up; from the right, down to the ground; where it is."""
 STANDS = {CHASE: (0.0, 21.0 * DEG), SIDE: (65.0 * DEG, 9.0 * DEG)}
 """How far round from behind own ship to its right a camera stands, and how high [rad]."""
-LEAST_REACH = 10.0
-"""Half of what is seen up and down where the nearest of all stands [scene units]."""
+NEAREST = 10.0
+"""No camera is nearer to anything than this [scene units] …"""
+CLEAR = 8.0
+"""… and to an aircraft so many halves of its length: it would fill the picture."""
 MOVED = 0.004
 """A camera is moved when it would go this far, relative to its distance."""
 SWING = 0.15
@@ -40,8 +42,8 @@ SEEN_TO = 12_000.0
 """Nothing nearer or farther than these is drawn: the sky is at half the second."""
 FARTHEST = 1400.0
 """Further out than this no hand moves the camera."""
-HALVINGS = 8
-"""The middle of the picture is found to a part in 256 of its field."""
+HALVINGS = 10
+"""The middle of the picture is found to a part in a thousand of its field."""
 SHAPE = 1.6
 """Width of a window by its height, before its viewer has said so."""
 
@@ -182,7 +184,7 @@ def fit(away: Array, sights: Sights, aspect: float) -> Standpoint:
         return -(reach(axis - field * forward) + reach(-axis - field * forward)) / (2.0 * field)
 
     fields = ((right, high * aspect), (up, high))
-    nearest = -reach(-forward) - LEAST_REACH / tan(FOV / 2.0)
+    nearest = -reach(-forward) - max(NEAREST, CLEAR * radii[0])
     depth = min(nearest, *(needed(axis, field) for axis, field in fields))
     target = middle.copy()
     for axis, whole in fields:

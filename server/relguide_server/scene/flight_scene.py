@@ -117,6 +117,7 @@ class FlightScene:
         self._proposal: PlanProposed | None = None
         self._plan: PlanChanged | None = None
         self._drawn_from = 0.0
+        self._was_flown = True
         self._closest: _Closest | None = None
         self._pair: _Pair | None = None
         self._cast: _Cast | None = None
@@ -250,7 +251,7 @@ class FlightScene:
     def _draw_forecast(self, t: float) -> None:
         """What is left at flight time t [s] of the path that will be flown, and its shadow."""
         forecast, self._drawn_from = self._forecast, t
-        if forecast is None or t >= forecast.times[-1]:
+        if forecast is None or t >= forecast.times[-1] or not self._is_flown():
             for name in ("/world/forecast", "/world/forecast_shadow"):
                 self._scene.remove_by_name(name)
             return
@@ -261,6 +262,13 @@ class FlightScene:
         lines(self._scene, "/world/forecast", shapes.polyline(points), paint.PLAN, 3.0)
         shadow = shapes.polyline(points * (1.0, 1.0, 0.0))
         lines(self._scene, "/world/forecast_shadow", shadow, paint.PLAN_SHADOW, 1.5)
+
+    def _is_flown(self) -> bool:
+        """Whether guidance flies: what the aircraft would do on its own is no path of guidance."""
+        if self._pair is None:
+            return True
+        guidance = self._pair.guidance
+        return guidance.engagement == "engaged" and guidance.mode != "heading"
 
     def _drawn_until(self, t: Second) -> Second:
         """Up to when the path is drawn: the join, or once joined where the leader is now."""
@@ -315,7 +323,8 @@ class FlightScene:
         self._pair = pair
         self._figures["pursuer"].mark(pair.pursuer, t)
         self._figures["leader"].mark(pair.leader, t)
-        if t - self._drawn_from >= FLOWN_PART:
+        if t - self._drawn_from >= FLOWN_PART or self._is_flown() != self._was_flown:
+            self._was_flown = self._is_flown()
             self._draw_forecast(t)
             self._draw_plan(t)
         self._draw_closest(t, guidance)

@@ -1,7 +1,7 @@
 """The minimum separation round the leader in the 3D scene, and what is kept beside it."""
 
 import numpy as np
-from viser import SceneApi
+from viser import SceneApi, SceneNodeHandle
 
 from relguide.flying.aircraft_documents import GuidanceSample
 from relguide.units import Metre, Second
@@ -33,6 +33,7 @@ class MinimumRing:
     def __init__(self, scene: SceneApi) -> None:
         self._scene = scene
         self._drawn: tuple[Colour, Metre, Metre] | None = None
+        self._handles: list[SceneNodeHandle] = []
         self.reach = 0.0
         """Radius of the outermost circle that is drawn [scene units]."""
 
@@ -40,19 +41,21 @@ class MinimumRing:
         """Both circles, as they are now."""
         if min_separation <= 0.0:
             return
+        colour = separation_colour(guidance, min_separation)
+        is_shown = guidance.engagement != "off" or colour != paint.LEADER
+        self._show(is_shown)
         astray = ASTRAY * guidance.leader_age**2 if guidance.leader_age > STALE else 0.0
         radius, margin = min_separation + _stepped(astray), _stepped(guidance.margin)
-        colour = separation_colour(guidance, min_separation)
         if self._drawn == (colour, radius, margin):
             return
         self._drawn = (colour, radius, margin)
         self.reach = (radius + margin) / KM
-        self._scene.add_cylinder(
+        cylinder = self._scene.add_cylinder(
             "/world/leader/min_separation",
             radius / KM,
             2.0 * WALL,
             colour,
-            opacity=0.28 if colour == paint.ALERT else 0.14,
+            opacity=0.28 if colour == paint.ALERT else 0.1,
             radial_segments=72,
             side="double",
             cast_shadow=False,
@@ -60,12 +63,20 @@ class MinimumRing:
         )
         edges = [_edge(radius, z, colour == paint.ALERT) for z in (WALL, -WALL)]
         wide = 3.0 if colour == paint.ALERT else 1.5
-        lines(self._scene, "/world/leader/edge", np.concatenate(edges), colour, wide)
+        edge = lines(self._scene, "/world/leader/edge", np.concatenate(edges), colour, wide)
+        self._handles = [cylinder, edge]
         if margin > 0.0:
             beside = shapes.dashes(shapes.circle((radius + margin) / KM), MARGIN)
-            lines(self._scene, "/world/leader/margin", beside, paint.LEADER, 1.0)
+            circle = lines(self._scene, "/world/leader/margin", beside, paint.LEADER, 1.0)
+            self._handles.append(circle)
         else:
             self._scene.remove_by_name("/world/leader/margin")
+        self._show(is_shown)
+
+    def _show(self, is_shown: bool) -> None:
+        for handle in self._handles:
+            if handle.visible != is_shown:
+                handle.visible = is_shown
 
 
 def separation_colour(guidance: GuidanceSample, min_separation: Metre) -> Colour:

@@ -10,7 +10,7 @@ from relguide_server.scene.camera import (
     CHASE,
     FOV,
     FREE,
-    LEAST_REACH,
+    NEAREST,
     ROOM,
     SIDE,
     VIEWS,
@@ -74,7 +74,7 @@ def test_both_aircraft_the_minimum_and_the_join_are_in_the_picture(
         # no farther away than it must be: full from side to side, or up and down, or one is close
         forward = np.subtract(standpoint.target, standpoint.eye)
         depth = (places - standpoint.eye) @ forward / np.linalg.norm(forward)
-        close = depth.min() < 1.001 * LEAST_REACH / tan(FOV / 2.0)
+        close = depth.min() < 1.001 * NEAREST
         assert close or np.ptp(seen, axis=0).max() > 1.9 * ROOM
 
 

@@ -69,11 +69,9 @@ export function Charts({ session, actions }: Props) {
       ) : (
         <>
           <TimeAxis session={session} actions={actions} window={window.value} />
-          <div class="chart-scroll" role="group" aria-label="Charts">
+          <div class="chart-scroll">
             <Strips session={session} actions={actions} strips={strips} window={window} />
-            <p class="hint chart-note" role="status">
-              {costates.value.sentence}
-            </p>
+            <p class="hint chart-note">{costates.value.sentence}</p>
             <Summary strips={strips.value} t={session.flight.read.value.t} />
           </div>
         </>

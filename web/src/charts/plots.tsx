@@ -77,14 +77,13 @@ export function Strips({ session, actions, strips, window }: StripsProps) {
         else actions.step((step ?? 0) * (event.shiftKey ? 10 : 1));
       }}
     >
-      {strips.value.map((strip, k) => (
+      {strips.value.map((strip) => (
         <StripPlot
           key={`${strip.name} ${strip.lines.length}`}
           strip={strip}
           window={window.value}
           t={read.value.t}
           palette={session.distinctColours.value ? "distinct" : "usual"}
-          isFirst={k === 0}
         />
       ))}
       <div ref={cursor} class="chart-cursor" />
@@ -97,13 +96,11 @@ interface StripPlotProps {
   readonly window: Window;
   readonly t: number;
   readonly palette: string;
-  readonly isFirst: boolean;
 }
 
 function StripPlot({ strip, window, t, palette }: StripPlotProps) {
   const place = useRef<HTMLDivElement>(null);
   const plot = useRef<Plot | null>(null);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: made once; what changes is drawn below
   useEffect(() => {
     const box = place.current;
     if (box === null) return;

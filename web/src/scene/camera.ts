@@ -47,13 +47,14 @@ export interface Stand {
 const UNIT = 1000;
 export const ALTITUDE_SCALE = 2;
 
-/** Vertical field of view [rad], what part of half the picture must hold all sights, and half of what is
- * seen up and down where the nearest of them is [units]: as in the server's scene/camera.py. */
+/** Vertical field of view [rad], what part of half the picture must hold all sights, how near a camera may be
+ * to any [units], and to an aircraft [halves of its length]: as in the server's scene/camera.py. */
 const FOV = 45 * DEG;
 const FOCAL = 1 / Math.tan(FOV / 2);
 const ROOM = 0.76;
-const LEAST_REACH = 10;
-const HALVINGS = 8;
+const NEAREST = 10;
+const CLEAR = 8;
+const HALVINGS = 10;
 /** How far round from behind own ship to its right a camera stands, and how high [deg]. */
 const STANDS = { Chase: { round: 0, elevation: 21 }, Side: { round: 65, elevation: 9 } } as const;
 /** North is up, and the camera so little beside the zenith that it knows it [deg]. */
@@ -130,7 +131,7 @@ function fitted(bearing: number, elevation: number, sights: Sights, aspect: numb
     [right, tall * aspect],
     [up, tall],
   ] as const;
-  const nearest = reach(back) + LEAST_REACH * FOCAL;
+  const nearest = reach(back) + Math.max(NEAREST, CLEAR * (radii[0] ?? 0));
   const distance = Math.max(nearest, ...fields.map(([axis, field]) => needed(axis, field)));
   let target: Axis = [0, 0, height];
   for (const [axis, whole] of fields) {
@@ -175,7 +176,7 @@ export function standOf({ view }: Camera, altitude_m: number): Stand {
     (k) => -((right[k] ?? 0) * moved[0] + (up[k] ?? 0) * moved[1] + (back[k] ?? 0) * moved[2]),
   ) as unknown as Axis;
   const from: Axis = [eye[0], eye[1], eye[2] - heightOf(altitude_m)];
-  const distance = Math.max(LEAST_REACH, dot(from, back));
+  const distance = Math.max(NEAREST, dot(from, back));
   return {
     target: [eye[0] - distance * back[0], eye[1] - distance * back[1], eye[2] - distance * back[2]],
     bearing: wrap360(Math.atan2(back[0], back[1]) / DEG),

@@ -75,68 +75,82 @@ function lookOf({ colour, width, dash, opacity, light }: Stroke) {
   };
 }
 
-/** Where the sun stands [deg clockwise from north]: as the server's scene/sky.py. */
+/** Where the sun stands [deg clockwise from north], and how much of the haze below it is its light: as in the
+ * server's scene/sky.py. */
 const SUN = 205;
-/** The horizon's haze reaches so far up the sky and down the ground [parts of the focal length]. */
+const GLOW = 0.45;
+/** The horizon's haze reaches so far up the sky and down the ground, and the sun's light so far up and down
+ * [parts of the focal length]. */
 const HAZE = { up: 0.7, down: 0.5 } as const;
+const LIT = 0.3;
+/** Where across the picture the sun's light is reckoned. */
+const ACROSS = [0, 0.25, 0.5, 0.75, 1] as const;
 
 /** Sky, horizon and ground behind all that is drawn. */
 function Sky({ camera, size }: Pick<Props, "camera" | "size">) {
-  const level = useComputed(() => horizonOf(camera.value, size.value));
-  const { y, focal, sun } = level.value;
+  const horizon = useComputed(() => horizonOf(camera.value, size.value));
+  const { y, focal, glow } = horizon.value;
   const { width, height } = size.value;
   const line = Math.max(0, Math.min(height, y));
+  const rising = { gradientUnits: "userSpaceOnUse", x2: "0", y1: y } as const;
   return (
     <>
       <defs>
-        <linearGradient
-          id="sky"
-          gradientUnits="userSpaceOnUse"
-          y1={y}
-          y2={y - HAZE.up * focal}
-          x2="0"
-        >
+        <linearGradient id="sky" {...rising} y2={y - HAZE.up * focal}>
           <stop offset="0" stop-color="var(--haze)" />
           <stop offset="0.25" stop-color="var(--sky)" />
           <stop offset="1" stop-color="var(--zenith)" />
         </linearGradient>
-        <linearGradient
-          id="earth"
-          gradientUnits="userSpaceOnUse"
-          y1={y}
-          y2={y + HAZE.down * focal}
-          x2="0"
-        >
+        <linearGradient id="earth" {...rising} y2={y + HAZE.down * focal}>
           <stop offset="0" stop-color="var(--haze)" />
           <stop offset="0.3" stop-color="var(--far-ground)" />
           <stop offset="1" stop-color="var(--ground)" />
         </linearGradient>
-        <radialGradient id="sun">
-          <stop offset="0" stop-color="var(--sunlight)" stop-opacity="0.4" />
-          <stop offset="1" stop-color="var(--sunlight)" stop-opacity="0" />
-        </radialGradient>
+        <linearGradient id="sunlight" gradientUnits="userSpaceOnUse" x1="0" x2={width}>
+          {ACROSS.map((offset, k) => (
+            <stop
+              key={offset}
+              offset={offset}
+              stop-color="var(--sunlight)"
+              stop-opacity={glow[k]}
+            />
+          ))}
+        </linearGradient>
+        <linearGradient id="lit" {...rising} y1={y - LIT * focal} y2={y + LIT * focal}>
+          <stop offset="0" stop-color="white" stop-opacity="0" />
+          <stop offset="0.5" stop-color="white" />
+          <stop offset="1" stop-color="white" stop-opacity="0" />
+        </linearGradient>
+        <mask
+          id="near-horizon"
+          maskUnits="userSpaceOnUse"
+          x="0"
+          y="0"
+          width={width}
+          height={height}
+        >
+          <rect width={width} height={height} fill="url(#lit)" />
+        </mask>
       </defs>
-      {line > 0 && <rect width={width} height={line} fill="url(#sky)" />}
+      <rect width={width} height={height} fill="url(#sky)" />
       {line < height && <rect y={line} width={width} height={height - line} fill="url(#earth)" />}
-      {sun !== null && (
-        <ellipse cx={sun} cy={y} rx={0.55 * focal} ry={0.22 * focal} fill="url(#sun)" />
-      )}
+      <rect width={width} height={height} fill="url(#sunlight)" mask="url(#near-horizon)" />
     </>
   );
 }
 
-/** Where the horizon is seen, the focal length, and how far right the sun's foot is [px]. */
+/** Where the horizon is seen, the focal length [px], and how much of the sun's light falls on the haze. */
 function horizonOf(camera: Camera | null, { width, height }: Size) {
-  if (camera === null) return { y: 0, focal: 1, sun: null };
+  if (camera === null) return { y: 0, focal: 1, glow: [] };
   const { projection, view } = camera;
   const focal = ((projection[5] ?? 1) * height) / 2;
   // its third row points backward: where that is level, the camera looks along the horizon
   const ahead = Math.atan2(view[10] ?? 0, view[2] ?? 0) / DEG;
   const level = seeFar(camera, ahead, 0);
-  const sun = seeFar(camera, SUN, 0);
-  return {
-    y: round(level === null ? -height : ((1 - level.y) / 2) * height),
-    focal: round(focal),
-    sun: sun === null ? null : round(((1 + sun.x) / 2) * width),
-  };
+  const glow = ACROSS.map((part) => {
+    const bearing = ahead + Math.atan(((part - 0.5) * width) / focal) / DEG;
+    return GLOW * Math.max(0, Math.cos((bearing - SUN) * DEG)) ** 3;
+  });
+  const y = level === null ? -height : ((1 - level.y) / 2) * height;
+  return { y: round(Math.max(-9 * height, Math.min(9 * height, y))), focal: round(focal), glow };
 }

@@ -66,12 +66,6 @@ export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[
     if (d !== "") strokes.push({ name, d, ...look });
   };
   const hue = leaderColour(picture);
-  add("path-shadow", pathLine(picture, glass, 0), {
-    colour: "plan",
-    width: 1.2,
-    dash: "",
-    opacity: 0.35,
-  });
   add("own-drop", dropLine(now.pursuer, glass), { colour: "ownship", width: 1, dash: "" });
   if (leader !== null)
     add("leader-drop", dropLine(leader, glass), { colour: hue, width: 1, dash: "" });
@@ -88,7 +82,11 @@ export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[
       pathLine(picture, glass),
       style?.pathColour === "armed" ? LINES.armed : LINES.proposed,
     );
-  else add("path", pathLine(picture, glass), LINES.active);
+  else {
+    const shadow = { colour: "plan", width: 1.2, dash: "", opacity: 0.35 } as const;
+    add("path-shadow", pathLine(picture, glass, 0), shadow);
+    add("path", pathLine(picture, glass), LINES.active);
+  }
   const { closest } = picture;
   if (closest !== null) {
     const [mine, its] = [

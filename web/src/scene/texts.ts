@@ -123,7 +123,7 @@ function levels(glass: Glass, own: AircraftSample): { id: string; place: High }[
 }
 
 /** Levels whose marks are nearer to each other have no names [px]. */
-const APART = 22;
+const APART = 14;
 
 /** What the texts keep clear of: both aircraft, the gate, and all lines. */
 export function aroundTexts(shown: Shown, camera: Camera, size: Size): Surroundings {
