@@ -38,7 +38,9 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
     from relguide.flying.documents import Document
     from relguide.flying.plan_documents import (
         AnyAlternativeCard,
+        FlownCard,
         NoPlanCard,
+        NotFlownCard,
         OtherPathCard,
         PathPoint,
         PlanCard,
@@ -51,6 +53,8 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
         | PathPoint
         | AnyAlternativeCard
         | OtherPathCard
+        | FlownCard
+        | NotFlownCard
         | OptimalityCheck
         | RegularCheck
         | AircraftCard
