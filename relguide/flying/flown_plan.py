@@ -77,9 +77,7 @@ def _refusal(advice: Advice) -> str:
     return "Guidance holds a heading."
 
 
-def _card(
-    plan: Plan, committed: Committed, ahead: Forecast, assignment: Assignment
-) -> FlownCard:
+def _card(plan: Plan, committed: Committed, ahead: Forecast, assignment: Assignment) -> FlownCard:
     rows = ahead.own[: int(ahead.join_time) + 1]
     least, at = ahead.least(0.0, within=ahead.join_time)
     return FlownCard(
@@ -112,7 +110,9 @@ def _reason(plan: Plan, committed: Committed, ahead: Forecast, assignment: Assig
         said.append(f"It {_listed(how)}: {_more(by_path)}.")
     if abs(by_speed) >= WORTH_A_WORD:
         fast, slow = assignment.tas / KT, ahead.own[int(ahead.join_time), 5] / KT
-        said.append(f"It goes from {fast:.0f} to {slow:.0f} kt before it joins: {_more(by_speed)}.")
+        does = "slows" if slow < fast else "speeds up"
+        how_late = _more(by_speed)
+        said.append(f"It {does} from {fast:.0f} to {slow:.0f} kt before it joins: {how_late}.")
     return " ".join(said)
 
 

@@ -22,7 +22,7 @@ from relguide.units import DEG, Metre, Radian, Second
 STEPS = 4
 """Of a second, in a forecast: within 10 m of 20 a second."""
 BENT: Radian = 3.0 * DEG
-"""Rows that draw a path are no farther apart than this in heading: the chord strays by 4 m [rad]."""
+"""Rows that draw a path are no farther apart in heading: their chord strays by 4 m [rad]."""
 STRAIGHT_FOR = 30
 """… nor than this in time [s]."""
 FOLLOWED: Second = 150.0

@@ -85,7 +85,7 @@ def test_another_time_has_its_reason() -> None:
     )
     assert card_of("limit").reason == (
         "It begins to turn 7 s later and keeps 5.10 NM: 49 s more. "
-        "It goes from 465 to 419 kt before it joins: 11 s more."
+        "It slows from 465 to 419 kt before it joins: 11 s more."
     )
 
 
