@@ -80,9 +80,7 @@ def test_the_other_paths_come_with_their_segments_on_request() -> None:
 def test_what_to_include_is_read_from_words_with_commas() -> None:
     assert read_include("") == ()
     assert read_include("alternatives, optimality") == ("alternatives", "optimality")
-    with pytest.raises(
-        ValueError, match="alternatives, paths, optimality or flown"
-    ):
+    with pytest.raises(ValueError, match="alternatives, paths, optimality or flown"):
         read_include("alternatives,proof")
 
 
