@@ -256,12 +256,16 @@ def path_to_wire(card: PlanCard | OtherPathCard, anchor: Anchor) -> dict[str, An
     answer = to_wire(card)
     match anchor:
         case LocalPlane():
-            for segment in answer["segments"]:
-                segment["start"] = _point_to_wire(segment["start"], anchor)
-                segment["end"] = _point_to_wire(segment["end"], anchor)
+            _place_segments(answer, anchor)
         case Unanchored():
             pass
     return answer
+
+
+def _place_segments(answer: dict[str, Any], plane: LocalPlane) -> None:
+    for segment in answer["segments"]:
+        segment["start"] = _point_to_wire(segment["start"], plane)
+        segment["end"] = _point_to_wire(segment["end"], plane)
 
 
 def flown_to_wire(card: FlownCard | NotFlownCard, anchor: Anchor) -> dict[str, Any]:
@@ -269,6 +273,7 @@ def flown_to_wire(card: FlownCard | NotFlownCard, anchor: Anchor) -> dict[str, A
     answer = to_wire(card)
     if isinstance(card, FlownCard) and isinstance(anchor, LocalPlane):
         answer["points"] = [_point_to_wire(point, anchor) for point in answer["points"]]
+        _place_segments(answer, anchor)
     return answer
 
 

@@ -7,10 +7,11 @@ other: the first act of guidance commits to a path, and flies the closed loop ah
 
 from math import inf
 
+from relguide.flying.cards import path_segments
 from relguide.flying.fleet import Fleet
 from relguide.flying.flight import world_of
 from relguide.flying.guidance.advise import advise
-from relguide.flying.guidance.announcements import PlanMissing, UnableTo
+from relguide.flying.guidance.announcements import NewPlan, PlanMissing, UnableTo
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.guidance.forecast import Forecast, rows_to_draw
@@ -54,14 +55,33 @@ def flown_card(plan: Plan, planner: Planner, *, until: float = inf) -> FlownCard
     one = begin_pursuit(world, fleet, world.links[0])
     belief = one.belief(fleet, 0.0)
     memory, advice = advise(one.memory, belief, one.assignment, planner if until == inf else timed)
-    committed = memory.committed
-    if committed is None:
+    committed, shown = memory.committed, _shown(advice)
+    if committed is None or shown is None:
         return NotFlownCard(reason=_refusal(advice))
     ahead = committed.forecast
     if not ahead.joins:
         after = duration(ahead.until)
         return NotFlownCard(reason=f"Flown ahead for {after}, it does not join by {plan.word}.")
-    return _card(plan, committed, ahead, one.assignment)
+    rows = ahead.own[: int(ahead.join_time) + 1]
+    least, at = ahead.least(0.0, within=ahead.join_time)
+    return FlownCard(
+        join=ahead.join_time,
+        least=least,
+        at=at,
+        word=committed.plan.word,
+        reason=_reason(plan, committed, ahead, one.assignment),
+        segments=path_segments(shown.trajectory, shown.situation.wind),
+        points=tuple(
+            FlownPoint(t=float(k), x=x, y=y, heading=wrap(heading), tas=tas)
+            for k in rows_to_draw(rows)
+            for x, y, heading, _, _, tas, _ in [rows[k].tolist()]
+        ),
+    )
+
+
+def _shown(advice: Advice) -> Plan | None:
+    """The plan that a crew is shown: its lead-in included."""
+    return next((event.shown for event in advice.events if isinstance(event, NewPlan)), None)
 
 
 def _refusal(advice: Advice) -> str:
@@ -75,23 +95,6 @@ def _refusal(advice: Advice) -> str:
             case _:
                 pass
     return "Guidance holds a heading."
-
-
-def _card(plan: Plan, committed: Committed, ahead: Forecast, assignment: Assignment) -> FlownCard:
-    rows = ahead.own[: int(ahead.join_time) + 1]
-    least, at = ahead.least(0.0, within=ahead.join_time)
-    return FlownCard(
-        join=ahead.join_time,
-        least=least,
-        at=at,
-        word=committed.plan.word,
-        reason=_reason(plan, committed, ahead, assignment),
-        points=tuple(
-            FlownPoint(t=float(k), x=x, y=y, heading=wrap(heading), tas=tas)
-            for k in rows_to_draw(rows)
-            for x, y, heading, _, _, tas, _ in [rows[k].tolist()]
-        ),
-    )
 
 
 def _reason(plan: Plan, committed: Committed, ahead: Forecast, assignment: Assignment) -> str:

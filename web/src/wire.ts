@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-6566685b079a";
+export const PROTOCOL = "relguide-984ae576eb33";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -432,6 +432,8 @@ export interface FlownCard {
   word: string;
   /** Why it takes another time than the plan, in sentences; empty if it does not. */
   reason: string;
+  /** What guidance plans to fly, with what it flies until it can turn; before rolls and braking. */
+  segments: PathSegment[];
   /** Where it goes, until it has joined: to be drawn with straight lines between them. */
   points: FlownPoint[];
 }

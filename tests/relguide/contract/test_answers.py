@@ -203,7 +203,16 @@ def test_the_flight_of_a_plan_has_the_contracts_names_and_changes_nothing_else()
     asked = answer(situation, anchor, plan, include=["flown"])
     TypeAdapter(PlanAnswer).validate_python(asked)
     flown = asked.pop("flown")
-    assert list(flown) == ["status", "join_s", "least_m", "at_s", "word", "reason", "points"]
+    assert list(flown) == [
+        "status",
+        "join_s",
+        "least_m",
+        "at_s",
+        "word",
+        "reason",
+        "segments",
+        "points",
+    ]
     assert flown["join_s"] > asked["time_to_converge_s"]
     assert {tuple(point) for point in flown["points"]} == {
         ("t_s", "x_m", "y_m", "heading_deg", "tas_mps")
