@@ -70,7 +70,7 @@ def flown_card(plan: Plan, planner: Planner, *, until: float = inf) -> FlownCard
         at=at,
         word=committed.plan.word,
         reason=_reason(plan, committed, ahead, one.assignment),
-        segments=path_segments(shown.trajectory, shown.situation.wind),
+        segments=path_segments(shown.trajectory, wind=shown.situation.wind),
         points=tuple(
             FlownPoint(t=float(k), x=x, y=y, heading=wrap(heading), tas=tas)
             for k in rows_to_draw(rows)
@@ -80,8 +80,9 @@ def flown_card(plan: Plan, planner: Planner, *, until: float = inf) -> FlownCard
 
 
 def _shown(advice: Advice) -> Plan | None:
-    """The plan that a crew is shown: its lead-in included."""
-    return next((event.shown for event in advice.events if isinstance(event, NewPlan)), None)
+    """The plan that a crew is shown, its lead-in included: the last, if one gave way at once."""
+    shown = [event.shown for event in advice.events if isinstance(event, NewPlan)]
+    return shown[-1] if shown else None
 
 
 def _refusal(advice: Advice) -> str:

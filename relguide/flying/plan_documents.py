@@ -275,7 +275,7 @@ class FlownCard:
     reason: str
     """Why it takes another time than the plan, in sentences; empty if it does not."""
     segments: tuple[PathSegment, ...]
-    """What guidance plans to fly, with what it flies until it can turn; before rolls and braking."""
+    """What guidance plans to fly: straight until it can turn, and without rolls and braking."""
     points: tuple[FlownPoint, ...]
     """Where it goes, until it has joined: to be drawn with straight lines between them."""
     status: Literal["flown"] = "flown"

@@ -432,7 +432,7 @@ export interface FlownCard {
   word: string;
   /** Why it takes another time than the plan, in sentences; empty if it does not. */
   reason: string;
-  /** What guidance plans to fly, with what it flies until it can turn; before rolls and braking. */
+  /** What guidance plans to fly: straight until it can turn, and without rolls and braking. */
   segments: PathSegment[];
   /** Where it goes, until it has joined: to be drawn with straight lines between them. */
   points: FlownPoint[];
