@@ -44,12 +44,18 @@ export function formatMiles(distance: number, decimals = 1): string {
     .replace("-", "−");
 }
 
-/** A duration or clock time as mm:ss (minutes may pass 99). `time` [s] */
+/** From here on hours are written apart [min]. */
+const HOURS_FROM = 100;
+
+/** A duration or clock time as mm:ss, and as h:mm:ss from 100 minutes on. `time` [s] */
 export function formatClock(time: number): string {
   const seconds = Math.round(Math.abs(time));
   const sign = time < 0 && seconds > 0 ? "−" : "";
-  const minutes = String(Math.floor(seconds / 60)).padStart(2, "0");
-  return `${sign}${minutes}:${String(seconds % 60).padStart(2, "0")}`;
+  const two = (part: number) => String(part).padStart(2, "0");
+  const minutes = Math.floor(seconds / 60);
+  const long =
+    minutes < HOURS_FROM ? two(minutes) : `${Math.floor(minutes / 60)}:${two(minutes % 60)}`;
+  return `${sign}${long}:${two(seconds % 60)}`;
 }
 
 /** A flight level, e.g. "FL350". `altitude` [m] */

@@ -6,9 +6,7 @@ import type { Actions, Session } from "../session";
 import { SituationForm } from "./form";
 import { Gallery } from "./gallery-panel";
 import { TakeAlong } from "./take-along";
-
-const IDEAL =
-  "Flown, it takes some seconds more: to roll into each turn, and to slow down at its end.";
+import { twoTimes } from "./two-times";
 
 export function MapBench({ session, actions }: { session: Session; actions: Actions }) {
   const { map } = session;
@@ -20,7 +18,7 @@ export function MapBench({ session, actions }: { session: Session; actions: Acti
           <SituationForm map={map} />
         </div>
         <div class="column numbers">
-          <PlanNumbers session={map.reading} remark={IDEAL} />
+          <PlanNumbers session={map.reading} {...twoTimes(map.reading.answered.value)} />
         </div>
         <div class="column lists">
           <TakeAlong session={session} actions={actions} />

@@ -56,6 +56,7 @@ export interface Editor {
   /** The same to be read, beside the map: it changes five times a second. */
   readonly reading: {
     readonly situation: ReadonlySignal<Situation>;
+    readonly answered: ReadonlySignal<Answered | null>;
     readonly flight: Flight;
     readonly shown: Shown;
   };
@@ -84,6 +85,7 @@ export function createEditor(): Editor {
     shown: createShown(flight),
     reading: {
       situation: computed(() => slow.value.situation),
+      answered: computed(() => slow.value.answered),
       flight: read,
       shown: createShown(read),
     },

@@ -13,7 +13,7 @@ const STATE: Partial<Record<Guidance, string>> = { proposed: "proposed", armed: 
 export function Alternatives(props: { session: Pick<Session, "shown"> }) {
   const { shown } = props.session;
   const { plan: shownPlan, state } = shown.numbers.value;
-  const plan = shownPlan?.plan;
+  const plan = shownPlan?.ideal ?? shownPlan?.plan;
   return (
     <Panel
       name="alternatives"

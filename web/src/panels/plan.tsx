@@ -5,15 +5,16 @@ import type { Session } from "../session";
 import type { LeastAhead, Numbers } from "../store/numbers";
 import { countTurns, plannerName, proofSentence, STATE_NAMES } from "../store/reading";
 import { formatClock, formatMiles } from "../units";
-import type { LinkResult } from "../wire";
+import type { LinkResult, PlanCard } from "../wire";
 
 interface Given {
   session: Pick<Session, "flight" | "shown">;
-  /** What else there is to say of a plan. */
+  /** What is said of a path that is proposed, in place of when it joins, and beneath it. */
+  note?: string;
   remark?: string;
 }
 
-export function PlanNumbers({ session, remark }: Given) {
+export function PlanNumbers({ session, note, remark }: Given) {
   const { flight, shown } = session;
   const numbers = shown.numbers.value;
   const { sample, plan } = numbers;
@@ -36,8 +37,9 @@ export function PlanNumbers({ session, remark }: Given) {
       {flight.read.value.result !== null ? (
         <Outcome ended={flight.read.value.result} />
       ) : (
-        <Headline numbers={numbers} isJoined={sample.joined} />
+        <Headline numbers={numbers} isJoined={sample.joined} note={note} />
       )}
+      {plan !== null && remark !== undefined && <p class="why">{remark}</p>}
       <dl class="readings">
         {plan !== null && !isClose && <PathReadings plan={plan} numbers={numbers} />}
         <SpacingReadings numbers={numbers} isClose={isClose} />
@@ -46,12 +48,13 @@ export function PlanNumbers({ session, remark }: Given) {
           isIntentKnown={flight.read.value.route?.intent_known ?? null}
         />
       </dl>
-      {plan !== null && (
-        <p class="proof">{proofSentence(plan.plan.optimality, plan.plan.time_to_converge_s)}</p>
-      )}
-      {plan !== null && remark !== undefined && <p class="proof">{remark}</p>}
+      {plan !== null && <p class="proof">{proofOf(plan.ideal ?? plan.plan)}</p>}
     </Panel>
   );
+}
+
+function proofOf({ optimality, time_to_converge_s }: PlanCard): string {
+  return proofSentence(optimality, time_to_converge_s);
 }
 
 const HEADLINES: Partial<Record<Numbers["state"], string>> = {
@@ -60,7 +63,7 @@ const HEADLINES: Partial<Record<Numbers["state"], string>> = {
 };
 
 /** The one number that matters now. */
-function Headline(props: { numbers: Numbers; isJoined: boolean }) {
+function Headline(props: { numbers: Numbers; isJoined: boolean; note: string | undefined }) {
   const { trouble, toJoin, joinsAt, separation, state } = props.numbers;
   if (trouble !== null) {
     return (
@@ -75,7 +78,7 @@ function Headline(props: { numbers: Numbers; isJoined: boolean }) {
       <div class="headline">
         <span class="headline-label">{HEADLINES[state] ?? "Time to converge"}</span>
         <span class="headline-figure">{toJoin}</span>
-        <span class="headline-note">joins at {joinsAt}</span>
+        <span class="headline-note">{props.note ?? `joins at ${joinsAt}`}</span>
       </div>
     );
   }

@@ -128,13 +128,6 @@ export interface Numbers {
   readonly leaderSpeed: string;
 }
 
-/** A time still to fly [s]: mm:ss, or "1h51" where that has no room. */
-function formatLeft(left: number): string {
-  if (left < 5999.5) return formatClock(left);
-  const minutes = Math.round(left / 60);
-  return `${Math.floor(minutes / 60)}h${String(minutes % 60).padStart(2, "0")}`;
-}
-
 /** Calm below this: no arrow. */
 const ARROW_FROM = 2 * KT;
 /** The roll-in to a turn is announced this long before [s]. */
@@ -162,7 +155,7 @@ export function numbersOf(flight: Moment): Numbers {
     separation: shown === null ? NOTHING : formatMiles(shown.separation_m),
     closure: shown === null ? NOTHING : formatSignedKnots(shown.closure_mps),
     crossTrack: shown === null ? NOTHING : formatSide(shown.cross_track_m),
-    toJoin: left === null ? "" : formatLeft(left),
+    toJoin: left === null ? "" : formatClock(left),
     joinsAt: left === null || guided === null ? "" : formatClock(guided.t_s + left),
     next: guided === null ? null : nextPoint(flight, guided),
     nextTurn: guided === null ? null : nextTurnText(flight, guided),
@@ -258,7 +251,7 @@ function nextPoint(flight: Moment, reading: PairSample): NextPoint | null {
   return {
     name: turn === null ? "CNV" : `${turn.name} ${turn.size}°`,
     ...toward(reading, point),
-    left: formatLeft(left),
+    left: formatClock(left),
     isUrgent: turn !== null && left <= ROLL_IN,
   };
 }
@@ -267,7 +260,7 @@ function nextTurnText(flight: Moment, reading: PairSample): NextTurnText | null 
   const plan = shownPlan(flight);
   const turn = plan === null ? null : nextTurn(plan, reading.t_s);
   if (turn === null) return null;
-  return { size: `${turn.size[0]} ${turn.size.slice(1)}°`, left: formatLeft(turn.in) };
+  return { size: `${turn.size[0]} ${turn.size.slice(1)}°`, left: formatClock(turn.in) };
 }
 
 function leastAhead(flight: Moment, reading: PairSample): LeastAhead | null {
@@ -276,7 +269,7 @@ function leastAhead(flight: Moment, reading: PairSample): LeastAhead | null {
   const miles = formatMiles(closest.least);
   if (closest.at <= reading.t_s) return { miles, left: "", when: "passed" };
   if (isClosestAtJoin(flight, closest)) return { miles, left: "", when: "at_join" };
-  return { miles, left: formatLeft(closest.at - reading.t_s), when: "ahead" };
+  return { miles, left: formatClock(closest.at - reading.t_s), when: "ahead" };
 }
 
 type Place = Pick<PathPoint, "x_m" | "y_m">;

@@ -6,14 +6,7 @@
 import { computed, type ReadonlySignal } from "@preact/signals";
 import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometry";
 import { KT, NM } from "../units";
-import type {
-  AircraftSample,
-  ForecastChanged,
-  LeaderRoute,
-  PathPoint,
-  PlanChanged,
-  PlanProposed,
-} from "../wire";
+import type { AircraftSample, ForecastChanged, LeaderRoute, PathPoint, PlanChanged } from "../wire";
 import {
   type Closest,
   closestApproach,
@@ -46,7 +39,7 @@ import {
   separation,
 } from "./states";
 import type { TrailPoint } from "./trail";
-import type { Flight, Moment } from "./types";
+import type { Flight, Moment, Proposal } from "./types";
 
 export type { Moved } from "./motion";
 
@@ -118,7 +111,7 @@ export interface Picture {
   /** The plan whose points are shown: flown, or proposed. */
   readonly flown: Planned | null;
   /** The path that is proposed, accepted or not. */
-  readonly proposed: PlanProposed | null;
+  readonly proposed: Proposal | null;
   readonly superseded: PlanChanged | null;
   readonly forecast: ForecastChanged | null;
   /** Up to when the path is drawn [s, flight time]. */
