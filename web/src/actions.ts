@@ -129,7 +129,8 @@ export function createActions(
     if (answer.kind === "done") {
       show(answer.value);
       flies();
-      say("done", `New flight: ${answer.value.title}.`);
+      const waits = wanted.paused === true ? " It waits: accept what is proposed, or play." : "";
+      say("done", `New flight: ${answer.value.title}.${waits}`);
     } else if (answer.retryAfter !== undefined) {
       session.outage.value = null;
       say("sending", `${answer.sentence} It will start by itself.`);
@@ -191,6 +192,11 @@ export function createActions(
     session.feedback.value = { kind, text };
   }
 
+  function standsAtStart(): boolean {
+    const { clock, moment } = session.flight;
+    return clock.value.paused && moment.value.t < 1;
+  }
+
   async function end(): Promise<void> {
     const status = session.status.value;
     if (status === null) return;
@@ -237,6 +243,8 @@ export function createActions(
       void command({ command: "set_engagement", engagement }, doing, done).then(() => {
         // what it refuses at once brings no document
         if (session.feedback.value.kind === "refused") session.flight.isSent.value = false;
+        // What stands takes orders when it goes on: at its first instant it begins with the first.
+        else if (standsAtStart()) void command({ command: "play" }, doing, done);
       });
     },
     ownHeading(heading) {

@@ -5,6 +5,7 @@ import { useEffect } from "preact/hooks";
 import { MapBench } from "./map/bench";
 import { HowTo } from "./map/how-to";
 import { PlanMap } from "./map/map";
+import { FlyBar, Notice } from "./map/under-map";
 import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
 import { Alternatives } from "./panels/alternatives";
@@ -60,6 +61,8 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
           {!isMap && <Captions session={session} />}
           <div class="below">
             {small.value && !isMap && <Engage session={session} actions={actions} />}
+            {isMap && <Notice session={session} />}
+            {small.value && isMap && <FlyBar session={session} actions={actions} />}
             {isMap ? <HowTo /> : <Events session={session} />}
             {narrow.value && !isMap && <Aircraft session={session} actions={actions} />}
           </div>

@@ -1,6 +1,6 @@
 /** The keys of the page. A key typed into a field, or with Ctrl, Alt or Meta, is not ours. */
 
-import { type Editor, halfExtent, pan, showAll, zoom } from "./map/editor";
+import { type Editor, halfExtent, pan, showAll, step, zoom } from "./map/editor";
 import { set } from "./parts";
 import { type Actions, type Session, stepRange } from "./session";
 
@@ -60,6 +60,16 @@ export function keyAction(key: string, session: Session, actions: Actions): Act 
   if (!session.letterKeys.value && isLetter) return null;
   if (key.startsWith("Arrow")) return isMap(session) ? () => panBy(session.map, key) : null;
   return KEYS[isLetter ? key.toLowerCase() : key]?.(session, actions) ?? null;
+}
+
+/** Ctrl-Z takes back what was done on the map; Ctrl-Shift-Z and Ctrl-Y do it again. A field has its own. */
+export function stepAction(event: KeyboardEvent, session: Session): Act {
+  if (!isMap(session) || event.altKey || !(event.ctrlKey || event.metaKey)) return null;
+  const { target } = event;
+  if (target instanceof HTMLElement && target.matches("input, select, textarea")) return null;
+  const key = event.key.toLowerCase();
+  if (key === "z") return () => step(session.map, event.shiftKey ? 1 : -1);
+  return key === "y" && !event.shiftKey ? () => step(session.map, 1) : null;
 }
 
 /** Whether a key press belongs to what has the focus: typing in a field, or pressing a button. */

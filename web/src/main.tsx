@@ -16,8 +16,8 @@ import { createActions } from "./actions";
 import { followRange } from "./auto-range";
 import { Cockpit } from "./cockpit";
 import { followFirstStart } from "./first-start";
-import { isTaken, keyAction } from "./keyboard";
-import { followAddress } from "./map/address";
+import { isTaken, keyAction, stepAction } from "./keyboard";
+import { followAddress, followHistory } from "./map/address";
 import { followMap } from "./map/asking";
 import { drawPictures } from "./pace";
 import { keepPreferences } from "./preferences";
@@ -34,14 +34,15 @@ soundAlerts(session);
 followRange(session);
 followMap(session);
 followAddress(session);
+followHistory(session);
 
 const place = document.querySelector("#cockpit");
 if (place === null) throw new Error("The page has no place for the cockpit.");
 render(<Cockpit session={session} actions={actions} />, place);
 
 addEventListener("keydown", (event) => {
-  if (isTaken(event)) return;
-  const act = keyAction(event.key, session, actions);
+  const act =
+    stepAction(event, session) ?? (isTaken(event) ? null : keyAction(event.key, session, actions));
   if (act === null) return;
   event.preventDefault();
   act();

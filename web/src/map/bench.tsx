@@ -11,7 +11,10 @@ import { twoTimes } from "./two-times";
 export function MapBench({ session, actions }: { session: Session; actions: Actions }) {
   const { map } = session;
   return (
-    <section class="workstation map-bench" aria-label="Situation and plan">
+    <section
+      class={`workstation map-bench ${map.isLate.value ? "is-late" : ""}`}
+      aria-label="Situation and plan"
+    >
       <Gallery session={session} />
       <div class="panels">
         <div class="column">

@@ -1,0 +1,34 @@
+/** Under the map: why a link was not laid out and, where the panels are far below, the times and what flies it. */
+
+import type { Actions, Session } from "../session";
+import { twoTimes } from "./two-times";
+
+export function Notice({ session: { map } }: { session: Session }) {
+  if (map.notice.value === "") return null;
+  return (
+    <p class="map-notice" role="alert">
+      {map.notice.value}
+    </p>
+  );
+}
+
+export function FlyBar({ session, actions }: { session: Session; actions: Actions }) {
+  const { reading, isLate } = session.map;
+  const { toJoin, trouble } = reading.shown.numbers.value;
+  const { note, remark } = twoTimes(reading.answered.value);
+  return (
+    <section class={`fly-bar ${isLate.value ? "is-late" : ""}`} aria-label="Times, and fly it">
+      {trouble === null ? (
+        <p class="fly-times">
+          <b>{toJoin}</b> <span>{note}</span>
+        </p>
+      ) : (
+        <p class="fly-times caution">{trouble.sentence}</p>
+      )}
+      <button type="button" class="primary" onClick={() => actions.fly()}>
+        Fly it
+      </button>
+      {trouble === null && remark !== undefined && <p class="why">{remark}</p>}
+    </section>
+  );
+}
