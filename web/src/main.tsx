@@ -17,24 +17,27 @@ import { followRange } from "./auto-range";
 import { Cockpit } from "./cockpit";
 import { followFirstStart } from "./first-start";
 import { isTaken, keyAction, stepAction } from "./keyboard";
-import { followAddress, followHistory } from "./map/address";
+import { followAddress } from "./map/address";
 import { followMap } from "./map/asking";
 import { drawPictures } from "./pace";
 import { keepPreferences } from "./preferences";
 import { createSession } from "./session";
 import { soundAlerts } from "./sound";
 import { createFlightStore } from "./store/flight";
+import { takeDroppedFiles } from "./timeline/drop";
+import { followInstant } from "./timeline/link";
 
 const store = createFlightStore();
-const session = createSession(store.flight, followFirstStart());
+const session = createSession(store.flight, followFirstStart(), store.history);
 const receive = drawPictures(store, session);
-const actions = createActions(session, { link: store.link, receive });
+const actions = createActions(session, { ...store, receive });
 keepPreferences(session);
 soundAlerts(session);
 followRange(session);
 followMap(session);
 followAddress(session);
-followHistory(session);
+followInstant(session);
+takeDroppedFiles(actions);
 
 const place = document.querySelector("#cockpit");
 if (place === null) throw new Error("The page has no place for the cockpit.");
@@ -42,10 +45,13 @@ render(<Cockpit session={session} actions={actions} />, place);
 
 addEventListener("keydown", (event) => {
   const act =
-    stepAction(event, session) ?? (isTaken(event) ? null : keyAction(event.key, session, actions));
+    stepAction(event, session) ??
+    (isTaken(event) ? null : keyAction(event.key, session, actions, event.shiftKey));
   if (act === null) return;
   event.preventDefault();
   act();
 });
 
-void actions.open(new URL(location.href).searchParams);
+const open = () => void actions.open(new URL(location.href).searchParams);
+addEventListener("popstate", open);
+open();

@@ -2,8 +2,7 @@
 
 import { effect } from "@preact/signals";
 import type { Session } from "../session";
-import { isSame, putSituation } from "./editor";
-import { clearAddress, readAddress, writeAddress } from "./link";
+import { clearAddress, writeAddress } from "./link";
 import type { Situation } from "./situation";
 
 /** Browsers take so many changes of the address and no more: it follows when the hand rests [ms]. */
@@ -40,19 +39,4 @@ function addressOf(situation: Situation | null): URL {
 export function rememberMap(situation: Situation): void {
   history.replaceState(null, "", addressOf(situation));
   history.pushState(null, "", addressOf(null));
-}
-
-/** Back and forward between the map and the flight that was made of it. */
-export function followHistory({ ndMode, map }: Pick<Session, "ndMode" | "map">): void {
-  addEventListener("popstate", () => {
-    const { searchParams } = new URL(location.href);
-    if (!searchParams.has("plan")) {
-      if (ndMode.value === "PLAN") ndMode.value = "ARC";
-      return;
-    }
-    const found = readAddress(searchParams);
-    if (found !== null && typeof found !== "string" && !isSame(found, map.situation.value))
-      putSituation(map, found);
-    ndMode.value = "PLAN";
-  });
 }

@@ -4,7 +4,7 @@ import { effect, untracked } from "@preact/signals";
 import type { Session } from "../session";
 import type { FlightRequest } from "../wire";
 import { rememberMap } from "./address";
-import { putSituation } from "./editor";
+import { isSame, putSituation } from "./editor";
 import { situationOf } from "./from-flight";
 import { entryOf } from "./gallery";
 import { readAddress } from "./link";
@@ -16,7 +16,9 @@ type Begin = (wanted: FlightRequest, flies: () => void) => Promise<void>;
 /** Puts the situation of an address on the map, and shows that; why it has none is said. */
 export function layOut({ map, ndMode }: Session, address: URLSearchParams): void {
   const found = readAddress(address);
-  putSituation(map, found === null || typeof found === "string" ? FIRST : found);
+  const situation = found === null || typeof found === "string" ? FIRST : found;
+  // Who comes back finds the map as it was.
+  if (!map.isBegun.value || !isSame(situation, map.situation.value)) putSituation(map, situation);
   ndMode.value = "PLAN";
   if (typeof found === "string")
     map.notice.value = `This link is not laid out. ${found} Here is the paper's Fig. 6b.`;

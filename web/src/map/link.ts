@@ -40,7 +40,7 @@ export function readAddress(parameters: URLSearchParams): Situation | string | n
     const text = parameters.get(name);
     const { said, bounds } = PARTS[name];
     if (text === null) {
-      if (name !== "wind") faults.push(`${said} is missing.`);
+      if (name !== "wind") faults.push(`${said} ${name === "distances" ? "are" : "is"} missing.`);
       return bounds.map(() => 0);
     }
     const parts = text.trim().split(/\s+/);
@@ -98,7 +98,7 @@ function bound(range: readonly [number, number], what: string, unit: string, siz
   return {
     range,
     say: (value) =>
-      `${what} ${text(value)} ${unit} is refused, ${text(range[0])} to ${text(range[1])} is right.`,
+      `${what} ${text(value)} ${unit} is refused, ${text(range[0])} to ${text(range[1])} ${unit} is right.`,
   };
 }
 
