@@ -55,9 +55,10 @@ def flown_card(plan: Plan, planner: Planner, *, until: float = inf) -> FlownCard
     one = begin_pursuit(world, fleet, world.links[0])
     belief = one.belief(fleet, 0.0)
     memory, advice = advise(one.memory, belief, one.assignment, planner if until == inf else timed)
-    committed, shown = memory.committed, _shown(advice)
-    if committed is None or shown is None:
+    made = [event for event in advice.events if isinstance(event, NewPlan)]
+    if not made or memory.mode in ("heading", "escape"):
         return NotFlownCard(reason=_refusal(advice))
+    committed, shown = made[-1].committed, made[-1].shown
     ahead = committed.forecast
     if not ahead.joins:
         after = duration(ahead.until)
@@ -77,12 +78,6 @@ def flown_card(plan: Plan, planner: Planner, *, until: float = inf) -> FlownCard
             for x, y, heading, _, _, tas, _ in [rows[k].tolist()]
         ),
     )
-
-
-def _shown(advice: Advice) -> Plan | None:
-    """The plan that a crew is shown, its lead-in included: the last, if one gave way at once."""
-    shown = [event.shown for event in advice.events if isinstance(event, NewPlan)]
-    return shown[-1] if shown else None
 
 
 def _refusal(advice: Advice) -> str:

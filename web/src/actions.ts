@@ -45,6 +45,8 @@ const ENGAGING: Record<Engagement, { doing: string; done: string }> = {
   engaged: { doing: "Engaging…", done: "Relative guidance is engaged." },
 };
 
+/** A flight that stands so early waits for its crew's orders: each lets it go on [s]. */
+const BEGINNING = 4;
 /** A refusal that comes so much later is about what somebody else commanded [ms]. */
 const LATEST = 3000;
 /** What is said to who commands a flight that is no more. */
@@ -77,6 +79,8 @@ export function createActions(
   let engagement: keyof typeof RATE = "off";
   /** When this page last gave a command [ms]. */
   let commanded = Number.NEGATIVE_INFINITY;
+  /** Whether a flight that went on for an acceptance stands again once that is taken. */
+  let standsAgain = false;
   /** Whether the page began with the map alone, so that nothing flies yet. */
   let isGrounded = false;
 
@@ -93,6 +97,11 @@ export function createActions(
     lookAs(session, address);
     if (joined === null) {
       await begin(requestOf(address.get("scenario") ?? FIRST_SCENARIO));
+      return;
+    }
+    if (stream !== null && joined === session.status.value?.id) {
+      const t = readClockText(address.get("t") ?? "");
+      if (t !== null) own.moves.seek(t);
       return;
     }
     const answer = await readFlight(joined);
@@ -171,6 +180,13 @@ export function createActions(
     const last = session.flight.read.value.engagement;
     if (last === null || last.engagement !== last.previous) return;
     if (performance.now() - commanded < LATEST) untracked(() => say("refused", last.message));
+  });
+  // What stands takes orders when it goes on: once a path is accepted it stands again, to be read.
+  effect(() => {
+    if (session.flight.moment.value.engagement?.engagement !== "armed" || !standsAgain) return;
+    standsAgain = false;
+    const { doing, done } = ENGAGING.armed;
+    untracked(() => void command({ command: "pause" }, doing, done));
   });
   followMode(session);
   // Whoever leaves the map without a flight sees the one that a page begins with.
@@ -265,7 +281,7 @@ export function createActions(
 
   function standsAtStart(): boolean {
     const { clock, moment } = session.flight;
-    return clock.value.paused && moment.value.t < 1;
+    return clock.value.paused && moment.value.t < BEGINNING;
   }
 
   async function end(): Promise<void> {
@@ -324,8 +340,10 @@ export function createActions(
       void command({ command: "set_engagement", engagement }, doing, done).then(() => {
         // what it refuses at once brings no document
         if (session.feedback.value.kind === "refused") session.flight.isSent.value = false;
-        // What stands takes orders when it goes on: at its first instant it begins with the first.
-        else if (standsAtStart()) void command({ command: "play" }, doing, done);
+        else if (standsAtStart()) {
+          standsAgain = engagement === "armed";
+          void command({ command: "play" }, doing, done);
+        }
       });
     },
     ownHeading(heading) {

@@ -115,6 +115,17 @@ def test_what_the_type_cannot_fly_says_so() -> None:
     assert "A306" in card.reason
 
 
+def test_straight_behind_the_leader_its_route_is_captured_at_once() -> None:
+    situation = gallery()["6a"]
+    behind = replace(situation, pursuer=replace(situation.pursuer, x=-200e3, y=0.0))
+    found = plan(behind)
+    assert isinstance(found, Plan)
+    card = flown_card(found, plan)
+    assert isinstance(card, FlownCard)
+    assert card.join == pytest.approx(found.time_to_converge, rel=0.02)
+    assert card.reason
+
+
 def test_a_flight_that_is_late_is_planned_by_what_is_found_by_then() -> None:
     card = flown_card(planned("head-on"), plan, until=end_of(0.0))
     assert card.reason

@@ -37,7 +37,7 @@ export function Alternatives(props: { session: Pick<Session, "shown"> }) {
             <tr class={STATE[state] ?? "flown"}>
               <th scope="row">{plan.word}</th>
               <td>{formatClock(plan.time_to_converge_s)}</td>
-              <td>{STATE[state] ?? "flown"}</td>
+              <td>{shownPlan?.ideal !== undefined ? "ideal" : (STATE[state] ?? "flown")}</td>
             </tr>
             {(plan.alternatives ?? []).map((alternative) => (
               <tr key={alternativeKey(alternative)}>
