@@ -88,27 +88,54 @@ def check_name(file: Path | str) -> None:
 def _record(
     documents: Iterable[Document], path: Path, sample_rate: float | None
 ) -> Iterator[Document]:
+    with _open(path, "wb") as stream:
+        stream.write(header_line())
+        for document, lines in _with_lines(documents, sample_rate):
+            stream.write(lines)
+            yield document
+
+
+def recording_of(documents: Iterable[Document], *, sample_rate: float | None = 1.0) -> bytes:
+    """What `record` would write of documents, up to the last of them.
+
+    Args:
+        documents: of a flight.
+        sample_rate: as in `record` [Hz].
+    """
+    lines = (lines for _, lines in _with_lines(documents, sample_rate))
+    return header_line() + b"".join(lines)
+
+
+def header_line(version: int = VERSION) -> bytes:
+    """The first line of a recording."""
+    from pydantic_core import to_json
+
+    return to_json({"format": FORMAT, "version": version}) + b"\n"
+
+
+def _with_lines(
+    documents: Iterable[Document], sample_rate: float | None
+) -> Iterator[tuple[Document, bytes]]:
+    """Each document, and the lines that a recording has of it: none, or one, or two at the end."""
     from pydantic_core import to_json
 
     from relguide.contract.wire import dumps, to_wire
 
     due, left_out = -inf, b""
-    with _open(path, "wb") as stream:
-        stream.write(to_json({"format": FORMAT, "version": VERSION}) + b"\n")
-        for document in documents:
-            match document:
-                case Sample(t=t) if sample_rate is not None:
-                    line = to_json(_rounded(to_wire(document))) + b"\n"
-                    if t > due - 1e-6:  # rounding of t, far below any step
-                        stream.write(line)
-                        due, left_out = (floor(t * sample_rate + 1e-6) + 1.0) / sample_rate, b""
-                    else:
-                        left_out = line
-                case FlightEnded():
-                    stream.write(left_out + dumps(document) + b"\n")
-                case _:
-                    stream.write(dumps(document) + b"\n")
-            yield document
+    for document in documents:
+        match document:
+            case Sample(t=t) if sample_rate is not None:
+                line = to_json(_rounded(to_wire(document))) + b"\n"
+                if t > due - 1e-6:  # rounding of t, far below any step
+                    yield document, line
+                    due, left_out = (floor(t * sample_rate + 1e-6) + 1.0) / sample_rate, b""
+                else:
+                    yield document, b""
+                    left_out = line
+            case FlightEnded():
+                yield document, left_out + dumps(document) + b"\n"
+            case _:
+                yield document, dumps(document) + b"\n"
 
 
 def _rounded(written: Any, name: str = "") -> Any:

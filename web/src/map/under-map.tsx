@@ -1,9 +1,26 @@
-/** Under the map: why a link was not laid out and, where the panels are far below, the times and what flies it. */
+/** Under the map: why a link was not laid out, what can be done and, on a small page, what flies it. */
 
 import type { Actions, Session } from "../session";
+import { HowTo } from "./how-to";
 import { twoTimes } from "./two-times";
 
-export function Notice({ session: { map } }: { session: Session }) {
+export function UnderMap(props: {
+  session: Session;
+  actions: Actions;
+  /** Whether the panels beside the map are far below it. */
+  isSmall: boolean;
+}) {
+  const { session, actions, isSmall } = props;
+  return (
+    <>
+      <Notice session={session} />
+      {isSmall && <FlyBar session={session} actions={actions} />}
+      <HowTo />
+    </>
+  );
+}
+
+function Notice({ session: { map } }: { session: Session }) {
   if (map.notice.value === "") return null;
   return (
     <p class="map-notice" role="alert">
@@ -12,7 +29,7 @@ export function Notice({ session: { map } }: { session: Session }) {
   );
 }
 
-export function FlyBar({ session, actions }: { session: Session; actions: Actions }) {
+function FlyBar({ session, actions }: { session: Session; actions: Actions }) {
   const { reading, isLate } = session.map;
   const { toJoin, trouble } = reading.shown.numbers.value;
   const { note, remark } = twoTimes(reading.answered.value);

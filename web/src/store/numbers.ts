@@ -13,7 +13,7 @@ import {
   KT,
   NM,
 } from "../units";
-import type { PathPoint } from "../wire";
+import type { AircraftSample, PathPoint } from "../wire";
 import {
   closestApproach,
   committedPoint,
@@ -25,9 +25,20 @@ import {
   timeToJoin,
 } from "./committed";
 import type { PairSample } from "./pair";
-import { closureText, crossTrackText, spacingText } from "./reading";
+import { closureText, crossTrackText, spacingText, startLower, unableSentence } from "./reading";
 import { AGE, GUIDANCE } from "./state-styles";
-import { age, ageOf, type Guidance, guidance, hasLapsed, leaderAge } from "./states";
+import {
+  age,
+  ageOf,
+  type Guidance,
+  guidance,
+  hasLapsed,
+  isRecent,
+  leaderAge,
+  NEWS,
+  separation,
+  wasDropped,
+} from "./states";
 import type { Moment } from "./types";
 
 /** The next turn, or the join: bearing, distance and how long until then. */
@@ -36,7 +47,7 @@ export interface NextPoint {
   /** Bearing in three digits. */
   readonly bearing: string;
   readonly miles: string;
-  /** mm:ss; "" where there is nothing to count down. */
+  /** How long until then; "" where there is nothing to count down. */
   readonly left: string;
   /** Whether the roll-in is due. */
   readonly isUrgent: boolean;
@@ -65,9 +76,16 @@ export interface Timing {
   readonly text: string;
 }
 
+/** The minimum separation is lost, or will be. */
+export interface Alarm {
+  readonly level: "caution" | "alert";
+  /** "SEPARATION" or "SEP IN 45 S". */
+  readonly text: string;
+}
+
 /** Why there is no plan. */
 export interface Trouble {
-  /** "Unable", or "No plan" and when that was said: its sentence tells of that moment. */
+  /** "Unable" or "No plan"; from the sentence's own moment on some seconds, it says which that was. */
   readonly label: string;
   readonly sentence: string;
 }
@@ -97,7 +115,7 @@ export interface Numbers {
   readonly closure: string;
   /** Offset from the leader's route, "0.3R"; "" below 0.05 NM. */
   readonly crossTrack: string;
-  /** mm:ss until it joins; "" when there is no way or it is over. */
+  /** How long until it joins; "" when there is no way or it is over. */
   readonly toJoin: string;
   /** Flight time of the join; "" as above. */
   readonly joinsAt: string;
@@ -109,6 +127,14 @@ export interface Numbers {
   readonly state: Guidance;
   /** Whether what is proposed has taken the place of a path that the crew had accepted. */
   readonly hasLapsed: boolean;
+  /** When the leader's data were lost while guidance was engaged, until the crew does the next step; "" else. */
+  readonly droppedAt: string;
+  /** Whether the minimum is lost or will be, in the words of the message line; null while it is kept. */
+  readonly alarm: Alarm | null;
+  /** The leader, while its data may be read. */
+  readonly leader: AircraftSample | null;
+  /** Whether the leader's turns to come are known; null when nothing is heard of it. */
+  readonly isIntentKnown: boolean | null;
   readonly trouble: Trouble | null;
   /** Least separation so far, and whether that is less than the minimum. */
   readonly leastSoFar: string;
@@ -163,6 +189,10 @@ export function numbersOf(flight: Moment): Numbers {
     plan: guided === null ? null : shownPlan(flight),
     state: guidance(flight),
     hasLapsed: hasLapsed(flight),
+    droppedAt: wasDropped(flight) ? formatClock(flight.engagement?.t_s ?? 0) : "",
+    alarm: seen.map ? alarmOf(flight) : null,
+    leader: shown?.leader ?? null,
+    isIntentKnown: shown === null ? null : (flight.route?.intent_known ?? null),
     trouble: guided === null ? null : troubleOf(flight),
     leastSoFar: sample === null ? NOTHING : formatMiles(leastUntil(flight, sample)),
     wasLost: sample !== null && sample.least_separation_m < (started?.min_separation_m ?? 0),
@@ -205,14 +235,28 @@ function timingOf({ mode, spacing_error_m: error, leader }: PairSample): Timing 
   };
 }
 
+function alarmOf(flight: Moment): Alarm | null {
+  const { state, within } = separation(flight);
+  switch (state) {
+    case "lost":
+      return { level: "alert", text: "SEPARATION" };
+    case "predicted":
+      return { level: "caution", text: `SEP IN ${within} S` };
+    case "kept":
+      return null;
+  }
+}
+
 function troubleOf(flight: Moment): Trouble | null {
   const [unavailable, unable] = [flight.unavailable, flight.unable];
-  if (unavailable !== null)
-    return {
-      label: `No plan at ${formatClock(unavailable.t_s)}`,
-      sentence: inPageUnits(unavailable.answer.message),
-    };
-  return unable === null ? null : { label: "Unable", sentence: inPageUnits(unable.message) };
+  // The numbers in a sentence are those of its moment: once that is over, it is said to be.
+  const dated = (label: string, t: number, message: string): Trouble => {
+    const sentence = inPageUnits(message);
+    if (isRecent(flight, t, NEWS)) return { label, sentence };
+    return { label, sentence: `As of ${formatClock(t)}: ${startLower(sentence)}` };
+  };
+  if (unavailable !== null) return dated("No plan", unavailable.t_s, unavailable.answer.message);
+  return unable === null ? null : dated("Unable", unable.t_s, unableSentence(unable));
 }
 
 function airTexts(flight: Moment, reading: PairSample | null) {
