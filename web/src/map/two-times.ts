@@ -3,15 +3,24 @@
 import { formatClock, inPageUnits } from "../units";
 import type { Answered } from "./what-if";
 
-/** Beside the flown time, and beneath it; nothing where there is no plan. */
-export function twoTimes(answered: Answered | null): { note?: string; remark?: string } {
+export interface TwoTimes {
+  /** What the time is that stands large. */
+  readonly label?: string;
+  /** The other one, beside it. */
+  readonly note?: string;
+  /** Why they differ, beneath. */
+  readonly remark?: string;
+}
+
+/** Empty where there is no plan. */
+export function twoTimes(answered: Answered | null): TwoTimes {
   const answer = answered?.answer;
   if (answer?.status !== "planned" || answer.flown === undefined) return {};
   const { flown, word } = answer;
   const ideal = formatClock(answer.time_to_converge_s);
   if (flown.status === "not_flown")
-    return { note: "ideal, not flown", remark: `Not flown: ${inPageUnits(flown.reason)}` };
-  if (flown.reason === "") return { note: `flown; ideal ${ideal}` };
-  const why = inPageUnits(flown.reason);
-  return { note: `flown; ideal ${ideal}`, remark: `Ideal ${ideal} by ${word}. ${why}` };
+    return { label: "Ideal", note: "not flown", remark: `Not flown: ${inPageUnits(flown.reason)}` };
+  const [label, note] = ["Proposed, as flown", `ideal ${ideal}`];
+  if (flown.reason === "") return { label, note };
+  return { label, note, remark: `Ideal ${ideal} by ${word}. ${inPageUnits(flown.reason)}` };
 }

@@ -32,12 +32,12 @@ function Notice({ session: { map } }: { session: Session }) {
 function FlyBar({ session, actions }: { session: Session; actions: Actions }) {
   const { reading, isLate } = session.map;
   const { toJoin, trouble } = reading.shown.numbers.value;
-  const { note, remark } = twoTimes(reading.answered.value);
+  const { label, note, remark } = twoTimes(reading.answered.value);
   return (
     <section class={`fly-bar ${isLate.value ? "is-late" : ""}`} aria-label="Times, and fly it">
       {trouble === null ? (
         <p class="fly-times">
-          <b>{toJoin}</b> <span>{note}</span>
+          <b>{toJoin}</b> {[label, note].filter((part) => part !== undefined).join("; ")}
         </p>
       ) : (
         <p class="fly-times caution">{trouble.sentence}</p>

@@ -9,12 +9,13 @@ import type { LinkResult, PlanCard } from "../wire";
 
 interface Given {
   session: Pick<Session, "flight" | "shown">;
-  /** What is said of a path that is proposed, in place of when it joins, and beneath it. */
+  /** What is said of a path that is proposed: of its time, in place of when it joins, and beneath. */
+  label?: string;
   note?: string;
   remark?: string;
 }
 
-export function PlanNumbers({ session, note, remark }: Given) {
+export function PlanNumbers({ session, label, note, remark }: Given) {
   const { flight, shown } = session;
   const numbers = shown.numbers.value;
   const { sample, plan } = numbers;
@@ -39,7 +40,7 @@ export function PlanNumbers({ session, note, remark }: Given) {
       {flight.read.value.result !== null ? (
         <Outcome ended={flight.read.value.result} />
       ) : (
-        <Headline numbers={numbers} isJoined={sample.joined} note={note} />
+        <Headline numbers={numbers} isJoined={sample.joined} label={label} note={note} />
       )}
       {plan !== null && remark !== undefined && <p class="why">{remark}</p>}
       <dl class="readings">
@@ -63,7 +64,12 @@ const HEADLINES: Partial<Record<Numbers["state"], string>> = {
 const FLOWN = "as the aircraft will really fly it: it rolls into its turns and brakes for the slot";
 
 /** The one number that matters now. */
-function Headline(props: { numbers: Numbers; isJoined: boolean; note: string | undefined }) {
+function Headline(props: {
+  numbers: Numbers;
+  isJoined: boolean;
+  label: string | undefined;
+  note: string | undefined;
+}) {
   const { alarm, trouble, toJoin, joinsAt, separation, state } = props.numbers;
   if (trouble !== null && alarm?.level !== "alert") {
     return (
@@ -77,7 +83,7 @@ function Headline(props: { numbers: Numbers; isJoined: boolean; note: string | u
     return (
       <div class="headline">
         <span class="headline-label" title={FLOWN}>
-          {HEADLINES[state] ?? "Time to join, as flown"}
+          {props.label ?? HEADLINES[state] ?? "Time to join, as flown"}
         </span>
         <span class="headline-figure">{toJoin}</span>
         <span class="headline-note">{props.note ?? `joins at ${joinsAt}`}</span>
