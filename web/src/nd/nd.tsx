@@ -36,7 +36,6 @@ import { TimingScale } from "./timing";
 import { TrackDiamond, TrackLine } from "./track";
 import { TrendVector } from "./trend";
 import { TurnPoints } from "./turns";
-import "./nd.css";
 import { type Carrier, createView, type DisplayMode, SIZE } from "./view";
 
 /** What lies under the map: no path is ever covered by it. */

@@ -1,0 +1,40 @@
+/** A flight at one instant: what was known of it then, from its documents alone. */
+
+import { createFlightStore } from "../store/flight";
+import { createShown, type Shown } from "../store/picture";
+import type { Document } from "../wire";
+
+/**
+ * What is shown of a flight at flight time `t` [s].
+ *
+ * @param documents - in order of time; what comes after `t` is not looked at.
+ * @throws if `t` is outside the flight, in a sentence.
+ */
+export function shownAt(documents: readonly Document[], t: number): Shown {
+  const [first, last] = [documents[0], documents.at(-1)];
+  if (first === undefined || last === undefined)
+    throw new Error("There is nothing to draw: the flight has no documents.");
+  if (!(t >= first.t_s && t <= last.t_s))
+    throw new Error(
+      `t = ${t} s is outside the flight, which goes from ${first.t_s} s to ${last.t_s} s.`,
+    );
+  const known = documents.filter((document) => document.t_s <= t);
+  const ended = known.at(-1)?.kind === "flight_ended";
+  const store = createFlightStore();
+  store.link("open");
+  store.receive(
+    { kind: "tick", flight_id: "", t_s: t, rate: 1, paused: true, ended, documents: known },
+    1000 * t,
+  );
+  return createShown(store.flight);
+}
+
+/** The documents of a text: a recording, a line each, or a JSON array. */
+export function documentsOf(text: string): Document[] {
+  if (text.trimStart().startsWith("[")) return JSON.parse(text);
+  return text
+    .split("\n")
+    .filter((line) => line.trim() !== "")
+    .map((line) => JSON.parse(line))
+    .filter((each) => "kind" in each);
+}
