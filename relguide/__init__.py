@@ -70,6 +70,9 @@ if typing.TYPE_CHECKING:
     from relguide.maps.isochrones import Grid as Grid
     from relguide.maps.isochrones import Isochrones as Isochrones
     from relguide.maps.isochrones import isochrones as isochrones
+    from relguide.pictures.flight import Flight as Flight
+    from relguide.pictures.picture import Picture as Picture
+    from relguide.pictures.picture import picture as picture
     from relguide.planning.alternatives import Alternative as Alternative
     from relguide.planning.alternatives import alternatives as alternatives
     from relguide.planning.arrival import Arrival as Arrival
@@ -161,6 +164,9 @@ _HOMES = {
     "Grid": "relguide.maps.isochrones",
     "Isochrones": "relguide.maps.isochrones",
     "isochrones": "relguide.maps.isochrones",
+    "Flight": "relguide.pictures.flight",
+    "Picture": "relguide.pictures.picture",
+    "picture": "relguide.pictures.picture",
     "Alternative": "relguide.planning.alternatives",
     "alternatives": "relguide.planning.alternatives",
     "Arrival": "relguide.planning.arrival",
@@ -220,6 +226,7 @@ __all__ = [
     "DeclaredLeader",
     "Document",
     "EngagementChanged",
+    "Flight",
     "FlightEnded",
     "FlightStarted",
     "FlyStraight",
@@ -239,6 +246,7 @@ __all__ = [
     "NoPlan",
     "Optimality",
     "OptimalityReport",
+    "Picture",
     "Plan",
     "PlanChanged",
     "PlanProposed",
@@ -279,6 +287,7 @@ __all__ = [
     "load_settings",
     "load_track",
     "own_scenario",
+    "picture",
     "plan",
     "plan_arrays",
     "progress_bar",

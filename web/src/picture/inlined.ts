@@ -16,26 +16,35 @@ const LOOKS: Readonly<Record<string, string>> = {
   "nd-frame": 'stroke-width="2"',
   "nd-rule": 'fill="none" stroke="var(--scale)" stroke-opacity="0.55" stroke-width="1.5"',
   "nd-box": 'fill="none" stroke="var(--scale)" stroke-width="2"',
-  "nd-touch": 'fill="none"',
 };
 
 const TAG = /<(\w+)((?: [\w:-]+(?:="[^"]*")?)*)>(?:<\/\1>)?/g;
 const ATTRIBUTE = / ([\w:-]+)="([^"]+)"/g;
 const LONG_NUMBER = /-?\d+\.\d{4,}(?:e-?\d+)?/g;
 
+const EMPTY_GROUP = /<g(?: [\w:-]+="[^"]*")*><\/g>/g;
+
 /**
- * The same drawing as XML that needs no style sheet. Lines that lead nowhere and empty texts are left out.
+ * The same drawing as XML that needs no style sheet. Left out are lines that lead nowhere, empty texts,
+ * and what is there for fingers only.
  *
  * @param markup - as HTML, in which an attribute may stand without a value.
  * @param fading - how much is still seen of what fades, 1 at first.
  */
 export function inlined(markup: string, palette: Palette, fading: number): string {
-  return markup.replace(TAG, (whole, name: string, attributes: string) => {
+  let drawn = markup.replace(TAG, (whole, name: string, attributes: string) => {
     const isEmpty = whole.endsWith(`</${name}>`);
-    if (isEmpty && (name === "text" || name === "g")) return "";
+    if (isEmpty && name === "text") return "";
     if (name === "path" && !attributes.includes(' d="')) return "";
+    if (attributes.includes(' class="nd-touch"')) return "";
+    if (isEmpty && name === "g") return whole;
     return `<${name}${looks(attributes, palette, fading)}${isEmpty ? "/>" : ">"}`;
   });
+  for (let before = ""; before !== drawn; ) {
+    before = drawn;
+    drawn = drawn.replace(EMPTY_GROUP, "");
+  }
+  return drawn;
 }
 
 function looks(attributes: string, palette: Palette, fading: number): string {

@@ -86,7 +86,7 @@ test("dark is the cockpit's palette", () => {
 
 test("what the style sheet says of a class is what a picture has", () => {
   const sheet = readFileSync("src/nd/nd.css", "utf8");
-  const named = new Set(sheet.match(/\.nd-(?!display|plane|map|flash|fading)[a-z]+/g));
+  const named = new Set(sheet.match(/\.nd-(?!display|plane|map|flash|touch)[a-z]+/g));
   const inlined = readFileSync("src/picture/inlined.ts", "utf8");
   for (const name of named) expect(inlined).toContain(`"${name.slice(1)}"`);
 });
