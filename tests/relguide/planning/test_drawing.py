@@ -44,10 +44,10 @@ def test_all_is_in_sight(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(1, 7))
 def test_it_is_true_to_its_scale_bar(seed: int) -> None:
     found, root = drawn(seed)
-    bar = next(path.get("d", "") for path in root.iter(f"{SVG}path") if "H" in path.get("d", ""))
+    (bar,) = (d for path in root.iter(f"{SVG}path") if (d := path.get("d", "")).startswith("M16 "))
     begin, end = (float(n) for n in re.findall(r"^M(\S+) .*H([\d.]+)V", bar)[0])
-    miles = next(float(t.text[:-3]) for t in root.iter(f"{SVG}text") if (t.text or "").endswith(" NM")
-                 and t.text[0].isdigit())  # fmt: skip
+    said = [text.text or "" for text in root.iter(f"{SVG}text")]
+    (miles,) = (float(words[:-3]) for words in said if re.fullmatch(r"[\d.]+ NM", words))
     scale = (end - begin) / (miles * NM)
     *_, own = root.iter(f"{SVG}polyline")
     first, last = points(own)[0], points(own)[-1]
