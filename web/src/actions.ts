@@ -99,7 +99,7 @@ export function createActions(
 
   // What is refused when its second comes was taken before: the last word is the service's.
   effect(() => {
-    const last = session.flight.engagement.value;
+    const last = session.flight.read.value.engagement;
     if (last === null || last.engagement !== last.previous) return;
     if (performance.now() - commanded < LATEST) untracked(() => say("refused", last.message));
   });

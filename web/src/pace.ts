@@ -10,7 +10,7 @@ import { batch } from "@preact/signals";
 import { velocity } from "./geometry";
 import { type Layout, layoutOf } from "./nd/view";
 import type { Session } from "./session";
-import { type FlightStore, READING_PERIOD } from "./store/flight";
+import { type FlightStore, READING_PERIOD, speedOf } from "./store/flight";
 import type { PairSample } from "./store/pair";
 import { DEG } from "./units";
 import type { AircraftSample, Tick } from "./wire";
@@ -58,11 +58,7 @@ export function drawPictures(
   }
 
   function motion() {
-    const { paused, ended, rate } = flight.clock.value;
-    return {
-      layout: layoutOf(ndMode.value, ndRange.value),
-      speed: paused || ended ? 0 : rate,
-    };
+    return { layout: layoutOf(ndMode.value, ndRange.value), speed: speedOf(flight) };
   }
 
   function request(): void {

@@ -115,7 +115,7 @@ export function createSession(
 
 /** Whether there is a flight that takes commands. */
 export function isFlying({ flight, outage }: Session): boolean {
-  return flight.ended.value === null && outage.value?.kind !== "flight_gone";
+  return flight.read.value.result === null && outage.value?.kind !== "flight_gone";
 }
 
 /** The next range outward (+1) or inward (−1), held to the ends of the selector. */

@@ -3,7 +3,7 @@ import { createActions } from "../src/actions";
 import { createSession } from "../src/session";
 import { createFlightStore } from "../src/store/flight";
 import { pairCard } from "../src/store/pair";
-import { noPlan, pairAt, STARTED } from "./samples";
+import { amend, noPlan, pairAt, STARTED } from "./samples";
 
 afterEach(() => vi.unstubAllGlobals());
 
@@ -48,12 +48,11 @@ test("a heading beyond a full turn is flown as what it means, and the page says 
 
 test("a click on a leader that is designated already takes nothing back", () => {
   const { asked, session, actions } = flying(problem(500, ""));
-  const store = session.flight;
-  store.started.value = pairCard(STARTED);
-  store.sample.value = pairAt(0);
+  const sample = pairAt(0);
+  amend(session.flight, { started: pairCard(STARTED), sample, now: sample });
   actions.engage("designated");
   expect(asked).not.toHaveBeenCalled();
-  store.sample.value = pairAt(0, { engagement: "off" });
+  amend(session.flight, { sample: pairAt(0, { engagement: "off" }) });
   actions.engage("designated");
   expect(asked).toHaveBeenCalledOnce();
 });
@@ -81,24 +80,25 @@ test("what is refused when its second comes is refused, whatever was said when i
   actions.engage("armed");
   await vi.waitFor(() => expect(session.feedback.value.kind).toBe("done"));
   const message = "There is no proposal to accept.";
-  session.flight.engagement.value = {
-    kind: "engagement_changed",
-    t_s: 1,
-    ident: "RG456",
-    engagement: "designated",
-    previous: "designated",
-    message,
-  };
+  amend(session.flight, {
+    engagement: {
+      kind: "engagement_changed",
+      t_s: 1,
+      ident: "RG456",
+      engagement: "designated",
+      previous: "designated",
+      message,
+    },
+  });
   expect(session.feedback.value).toEqual({ kind: "refused", text: message });
 });
 
 test("without a path nothing is accepted, and the page says why", () => {
   const { asked, session, actions } = flying(new Response("", { status: 204 }));
-  session.flight.started.value = pairCard(STARTED);
+  amend(session.flight, { started: pairCard(STARTED) });
   const now = pairAt(0, { engagement: "designated", mode: "heading" });
-  for (const each of [session.flight.sample, session.flight.now, session.flight.reading])
-    each.value = now;
-  session.flight.unavailable.value = noPlan(0);
+  amend(session.flight, { sample: now, now: now });
+  amend(session.flight, { unavailable: noPlan(0) });
   for (const step of ["armed", "engaged"] as const) {
     actions.engage(step);
     expect(session.feedback.value).toMatchObject({

@@ -89,7 +89,7 @@ test("ticks between two pictures draw nothing by themselves", () => {
   // … and steps of 102 ms between them
   expect(glides.length - glided).toBeGreaterThan(7);
   expect(glides.length - glided).toBeLessThan(12);
-  expect(store.flight.sample.value?.t_s).toBeGreaterThan(1.8);
+  expect(store.flight.moment.value.sample?.t_s).toBeGreaterThan(1.8);
 });
 
 test("news is drawn with the next frame", () => {
@@ -99,7 +99,7 @@ test("news is drawn with the next frame", () => {
   receive(tick(0.2, [modeChanged(0.2, "capture"), sample(0.2)]), performance.now());
   vi.advanceTimersByTime(17);
   expect(at.length).toBe(before + 1);
-  expect(store.flight.mode.value?.mode).toBe("capture");
+  expect(store.flight.moment.value.mode?.mode).toBe("capture");
 });
 
 test("a hidden page is given no frames, and hears all the same", () => {
@@ -108,7 +108,7 @@ test("a hidden page is given no frames, and hears all the same", () => {
   const { receive, store } = drawn();
   receive(tick(1, [sample(1)]), performance.now());
   vi.advanceTimersByTime(300);
-  expect(store.flight.sample.value?.t_s).toBe(1);
+  expect(store.flight.moment.value.sample?.t_s).toBe(1);
   hidden.mockRestore();
   vi.unstubAllGlobals();
 });

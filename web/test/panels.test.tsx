@@ -16,6 +16,7 @@ import { createFlightStore } from "../src/store/flight";
 import { NM } from "../src/units";
 import {
   alert,
+  amend,
   modeChanged,
   noPlan,
   OWN,
@@ -326,11 +327,11 @@ describe("panels", () => {
     const { store, session, actions } = flying();
     render(<LeaderControls session={session} actions={actions} />, place);
     expect(place.querySelector(".leader header")?.textContent).toBe("LeaderAF123");
-    const started = store.flight.started.value;
+    const started = store.flight.moment.value.started;
     if (started === null) throw new Error("no flight");
     const leader = { ...started.leader, ident: "LEADER" };
     act(() => {
-      store.flight.started.value = { ...started, leader };
+      amend(store.flight, { started: { ...started, leader } });
     });
     expect(place.querySelector(".leader header")?.textContent).toBe("Leader");
   });

@@ -1,6 +1,8 @@
 /** Documents and ticks for tests: a plain flight at 35,000 ft, own aircraft east-bound from the origin. */
 
+import { batch } from "@preact/signals";
 import type { PairSample } from "../src/store/pair";
+import type { Flight, Moment } from "../src/store/types";
 import type {
   AircraftSample,
   Alert,
@@ -252,4 +254,12 @@ export function tick(t: number, documents: Document[], changes: Partial<Tick> = 
     documents,
     ...changes,
   };
+}
+
+/** Changes what is known of a flight at the instant that is shown. */
+export function amend(flight: Flight, changes: Partial<Moment>): void {
+  batch(() => {
+    flight.moment.value = { ...flight.moment.value, ...changes };
+    flight.read.value = flight.moment.value;
+  });
 }

@@ -9,6 +9,7 @@ import { createShown } from "../src/store/picture";
 import { NM } from "../src/units";
 import { flightAt, forecastOf } from "./nd/fixture";
 import { flightIn } from "./nd/in-state";
+import { amend } from "./samples";
 
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 /** 45° of view, as wide as high. */
@@ -44,7 +45,7 @@ test("texts stand beside what they name, in the glass and apart from each other"
   const size = { width: 600, height: 400 };
   for (const t of [0, 150, 300, 450, 600, 750]) {
     const flight = flightAt("fig_6b", t);
-    flight.forecast.value = forecastOf("fig_6b");
+    amend(flight, { forecast: forecastOf("fig_6b") });
     const shown = createShown(flight);
     const camera = above(90 * NM);
     const texts = textsOf(shown, camera, size);
@@ -95,7 +96,7 @@ test.each([
 ])("both aircraft and the minimum are in the poster, whatever its shape: %s", (_, size) => {
   for (const t of [0, 200, 500, 800]) {
     const flight = flightAt("fig_6b", t);
-    flight.forecast.value = forecastOf("fig_6b");
+    amend(flight, { forecast: forecastOf("fig_6b") });
     const picture = createShown(flight).picture.value;
     const camera = posterCamera(picture, size);
     if (camera === null) throw new Error("A flight without a position.");
@@ -120,7 +121,7 @@ test("the poster draws the state: what is proposed is dashed, what is flown is s
   const size = { width: 600, height: 400 };
   const pathIn = (state: "off" | "proposed" | "armed" | "converge") => {
     const flight = flightIn(state);
-    flight.forecast.value = forecastOf("fig_6b");
+    amend(flight, { forecast: forecastOf("fig_6b") });
     const picture = createShown(flight).picture.value;
     const camera = posterCamera(picture, size);
     if (camera === null) throw new Error("A flight without a position.");

@@ -17,6 +17,7 @@ import type { Flight } from "../src/store/types";
 import { forecastOf } from "./nd/fixture";
 import { flightIn } from "./nd/in-state";
 import {
+  amend,
   modeChanged,
   planChanged,
   point,
@@ -177,7 +178,6 @@ function isRead(text: string | undefined): text is string {
 function become(flight: Flight, other: Flight): void {
   batch(() => {
     for (const key of Object.keys(flight) as (keyof Flight)[]) {
-      if (key === "trail") continue;
       (flight[key] as Signal<unknown>).value = (other[key] as Signal<unknown>).value;
     }
   });
@@ -206,7 +206,7 @@ test(`… and in ${FRAMES} frames of a whole flight, in every state, scene inclu
       // from the first second until after the join
       const t = 0.5 + (frame * 960.3) / each;
       const next = flightIn(state, t);
-      next.forecast.value = forecastOf("fig_6b");
+      amend(next, { forecast: forecastOf("fig_6b") });
       act(() => become(flight, next));
       const scene = inScene(session.shown);
       for (const [name, there] of Object.entries(standing(place))) {

@@ -7,7 +7,7 @@ import { type Situation, settle } from "./situation";
 
 /** Null while nothing is known of where the two are. */
 export function situationOf(flight: Flight): Situation | null {
-  const [now, started, route] = [flight.now.value, flight.started.value, flight.route.value];
+  const { now, started, route } = flight.moment.value;
   if (now === null || started === null) return null;
   const { pursuer, leader } = now;
   const known = route?.intent_known === true ? route.segments : [];

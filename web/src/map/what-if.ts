@@ -5,8 +5,9 @@
 
 import { batch } from "@preact/signals";
 import { pathPointAt, windVector } from "../geometry";
+import { NO_MOMENT } from "../store/flight";
 import type { PairCard, PairSample } from "../store/pair";
-import type { Flight } from "../store/types";
+import type { Flight, Moment } from "../store/types";
 import { wrap360 } from "../units";
 import type {
   AircraftSample,
@@ -35,26 +36,31 @@ export function showWhatIf(flight: Flight, situation: Situation, answered: Answe
   const segments = leaderRoute(situation, wind);
   const { point, opens } = slotNow(situation, segments, wind);
   const sample = sampleOf(situation, point, opens);
-  batch(() => {
-    flight.id.value = "map";
-    flight.started.value = cardOf(situation);
-    flight.route.value = {
+  const answer = answered?.answer ?? null;
+  const moment: Moment = {
+    ...NO_MOMENT,
+    started: cardOf(situation),
+    route: {
       kind: "leader_route",
       t_s: 0,
       ident: LEADER,
       expected_by: OWN,
       intent_known: situation.leader.intent.length > 0,
       segments,
-    };
-    for (const each of [flight.heard, flight.sample, flight.now, flight.reading])
-      each.value = sample;
-    const answer = answered?.answer ?? null;
-    flight.proposal.value =
-      answer?.status === "planned" ? proposalOf(answer, answer.others ?? [], segments, wind) : null;
-    flight.unavailable.value =
+    },
+    sample,
+    now: sample,
+    proposal:
+      answer?.status === "planned" ? proposalOf(answer, answer.others ?? [], segments, wind) : null,
+    unavailable:
       answer?.status === "no_plan"
         ? { kind: "plan_unavailable", t_s: 0, ident: OWN, answer }
-        : null;
+        : null,
+  };
+  batch(() => {
+    flight.id.value = "map";
+    flight.moment.value = moment;
+    flight.read.value = moment;
     flight.clock.value = { rate: 1, paused: true, ended: false };
     flight.connection.value = "live";
   });

@@ -21,7 +21,7 @@ export function Aircraft(props: { session: Session; actions: Actions }) {
   // The dial shows what is flown until it is used.
   const heading = useSignal<number | null>(null);
   const { sample, commandedSpeed } = props.session.shown.numbers.value;
-  const started = props.session.flight.started.value;
+  const started = props.session.flight.read.value.started;
   const idents = [started?.pursuer.ident ?? "Own", started?.leader.ident ?? "Leader"] as const;
   const heads = (
     <span class="idents" aria-hidden="true">

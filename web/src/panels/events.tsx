@@ -23,11 +23,11 @@ const KIND_NAMES: Record<Message["kind"], string> = {
 };
 
 export function Events(props: { session: Session }) {
-  const { messages } = props.session.flight;
+  const { messages } = props.session.flight.read.value;
   return (
     <Panel name="events" title="Events" scrolls>
       <ol class="log">
-        {messages.value.map((message) => (
+        {messages.map((message) => (
           <li key={`${message.t} ${message.text}`} class={message.kind}>
             <time>{formatClock(message.t)}</time>
             <b>{KIND_NAMES[message.kind]}</b>
@@ -41,22 +41,20 @@ export function Events(props: { session: Session }) {
 
 /** Mode changes, alerts and the loss of a plan, spoken without taking the focus. */
 export function Announcer(props: { session: Session }) {
-  const { engagement, mode, promise, unavailable, unable, alerts, lost } = props.session.flight;
+  const { engagement, mode, promise, unavailable, unable, alerts, lost } =
+    props.session.flight.read.value;
   const { state } = props.session.shown.numbers.value;
   const polite: string[] = [];
   if (state !== "off") polite.push(`${STATE_NAMES[state]}.`);
-  if (engagement.value !== null) polite.push(engagement.value.message);
+  if (engagement !== null) polite.push(engagement.message);
   const urgent: string[] = [];
-  if (mode.value !== null)
-    polite.push(`Mode ${MODE_NAMES[mode.value.mode]}. ${mode.value.message}`);
-  if (promise.value !== null) polite.push(promise.value.message);
-  if (unavailable.value !== null) polite.push(`No plan. ${unavailable.value.answer.message}`);
-  for (const alert of alerts.value)
-    (alert.level === "advisory" ? polite : urgent).push(alert.message);
-  if (unable.value !== null) urgent.push(`Unable. ${unable.value.message}`);
+  if (mode !== null) polite.push(`Mode ${MODE_NAMES[mode.mode]}. ${mode.message}`);
+  if (promise !== null) polite.push(promise.message);
+  if (unavailable !== null) polite.push(`No plan. ${unavailable.answer.message}`);
+  for (const alert of alerts) (alert.level === "advisory" ? polite : urgent).push(alert.message);
+  if (unable !== null) urgent.push(`Unable. ${unable.message}`);
   if (state === "data_lost") urgent.push("Nothing is heard of the leader.");
-  if (lost.value !== null)
-    urgent.push(`Separation lost at ${formatClock(lost.value.t_s)}. ${lost.value.cause}`);
+  if (lost !== null) urgent.push(`Separation lost at ${formatClock(lost.t_s)}. ${lost.cause}`);
   return (
     <div class="visually-hidden">
       <p role="status" data-testid="announcer">

@@ -64,7 +64,7 @@ function SimClock(props: { session: Session }) {
 }
 
 function ConnectionState(props: { session: Session }) {
-  const { connection, dataAge } = props.session.flight;
+  const { connection, read } = props.session.flight;
   const state = connection.value;
   // The map needs no flight.
   if (props.session.ndMode.value === "PLAN" && props.session.status.value === null)
@@ -72,7 +72,7 @@ function ConnectionState(props: { session: Session }) {
   // A flight that was removed is not a connection that was lost.
   if (props.session.outage.value?.kind === "flight_gone")
     return <p class="connection lost">Flight over</p>;
-  const age = state === "stale" || state === "lost" ? ` ${Math.floor(dataAge.value)} s` : "";
+  const age = state === "stale" || state === "lost" ? ` ${Math.floor(read.value.dataAge)} s` : "";
   return (
     <p class={`connection ${state}`}>
       <span class="lamp" aria-hidden="true" />

@@ -10,7 +10,7 @@ import { formatHeading, KT } from "../units";
 export function LeaderControls(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
   const leader = session.shown.numbers.value.sample?.leader;
-  const ident = session.flight.started.value?.leader.ident ?? "";
+  const ident = session.flight.read.value.started?.leader.ident ?? "";
   // A leader that is called so needs not be called so twice.
   const named =
     ident.toLowerCase() === "leader" ? {} : { aside: <span class="ident">{ident}</span> };
@@ -21,7 +21,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
   const knotsNow = leader === undefined ? 0 : Math.round(leader.tas_mps / KT);
   const selectedHeading = heading.value ?? headingNow;
   const selectedKnots = knots.value ?? knotsNow;
-  const known = session.flight.route.value?.intent_known ?? null;
+  const known = session.flight.read.value.route?.intent_known ?? null;
   const absent = leader === undefined || !isFlying(session);
   const isHeard = ageOf(session.shown.numbers.value.sample?.leader_age_s ?? 0) === "fresh";
   return (

@@ -33,8 +33,8 @@ export function PlanNumbers({ session, remark }: Given) {
       title="Convergence"
       aside={<span class={`mode-name ${numbers.state}`}>{STATE_NAMES[numbers.state]}</span>}
     >
-      {flight.ended.value !== null ? (
-        <Outcome ended={flight.ended.value} />
+      {flight.read.value.result !== null ? (
+        <Outcome ended={flight.read.value.result} />
       ) : (
         <Headline numbers={numbers} isJoined={sample.joined} />
       )}
@@ -43,7 +43,7 @@ export function PlanNumbers({ session, remark }: Given) {
         <SpacingReadings numbers={numbers} isClose={isClose} />
         <SafetyReadings
           numbers={numbers}
-          isIntentKnown={flight.route.value?.intent_known ?? null}
+          isIntentKnown={flight.read.value.route?.intent_known ?? null}
         />
       </dl>
       {plan !== null && (

@@ -7,7 +7,7 @@ import { pathPointAt, windVector } from "../geometry";
 import type { ForecastChanged, PathPoint, PlanChanged, PlanProposed, TurnSegment } from "../wire";
 import { forecastPoint } from "./forecast";
 import { GRAZE, guidance } from "./states";
-import type { Flight } from "./types";
+import type { Moment } from "./types";
 
 /** A plan that is flown, or that could be, and when it was made. */
 export type Planned = Pick<
@@ -16,25 +16,25 @@ export type Planned = Pick<
 >;
 
 /** The plan, while it is flown: not once it is over, and not once guidance has given it up. */
-export function flownPlan(flight: Flight): PlanChanged | null {
+export function flownPlan(flight: Moment): PlanChanged | null {
   if (!isOnItsWay(flight)) return null;
-  if (flight.unavailable.value !== null || flight.unable.value !== null) return null;
-  return flight.plan.value;
+  if (flight.unavailable !== null || flight.unable !== null) return null;
+  return flight.plan;
 }
 
 /** The path that is proposed, accepted or not; null when there is none, or guidance is engaged. */
-export function proposedPlan(flight: Flight): PlanProposed | null {
+export function proposedPlan(flight: Moment): PlanProposed | null {
   const state = guidance(flight);
-  return state === "proposed" || state === "armed" ? flight.proposal.value : null;
+  return state === "proposed" || state === "armed" ? flight.proposal : null;
 }
 
 /** The plan that is shown: flown or proposed. */
-export function shownPlan(flight: Flight): Planned | null {
+export function shownPlan(flight: Moment): Planned | null {
   return proposedPlan(flight) ?? flownPlan(flight);
 }
 
-function isOnItsWay(flight: Flight): boolean {
-  const mode = flight.sample.value?.mode;
+function isOnItsWay(flight: Moment): boolean {
+  const mode = flight.sample?.mode;
   return mode === "converge" || mode === "capture";
 }
 
@@ -44,18 +44,18 @@ function reaches(forecast: ForecastChanged | null, t: number): forecast is Forec
 }
 
 /** The aircraft on its committed path at flight time `t` [s]; null if nobody knows. */
-export function committedPoint(flight: Flight, t: number): PathPoint | null {
+export function committedPoint(flight: Moment, t: number): PathPoint | null {
   const proposed = proposedPlan(flight);
-  const forecast = proposed === null ? flight.forecast.value : null;
+  const forecast = proposed === null ? flight.forecast : null;
   if (reaches(forecast, t)) return forecastPoint(forecast, t);
-  const [plan, started] = [proposed ?? flownPlan(flight), flight.started.value];
+  const [plan, started] = [proposed ?? flownPlan(flight), flight.started];
   if (plan === null || started === null) return null;
   return pathPointAt(plan.plan.segments, t - plan.t_s, windVector(started.wind));
 }
 
 /** How long until it joins [s], as read five times a second; null when there is no way or it is over. */
-export function timeToJoin(flight: Flight): number | null {
-  const reading = flight.reading.value;
+export function timeToJoin(flight: Moment): number | null {
+  const reading = flight.now;
   const proposed = proposedPlan(flight);
   if (reading === null) return null;
   if (proposed !== null) return Math.max(0, proposed.t_s + proposed.promised_s - reading.t_s);
@@ -64,8 +64,8 @@ export function timeToJoin(flight: Flight): number | null {
 }
 
 /** When it joins [s, flight time]; null as above. To a hundredth, so that it stands still. */
-export function joinTime(flight: Flight): number | null {
-  const sample = flight.sample.value;
+export function joinTime(flight: Moment): number | null {
+  const sample = flight.sample;
   const proposed = proposedPlan(flight);
   if (proposed !== null) return proposed.t_s + proposed.promised_s;
   if (sample === null || !isOnItsWay(flight) || sample.joined || sample.time_to_go_s <= 0)
@@ -74,7 +74,7 @@ export function joinTime(flight: Flight): number | null {
 }
 
 /** Where own ship joins. */
-export function joinPoint(flight: Flight): PathPoint | null {
+export function joinPoint(flight: Moment): PathPoint | null {
   const t = joinTime(flight);
   return t === null ? null : committedPoint(flight, t);
 }
@@ -92,11 +92,11 @@ export interface Closest {
 }
 
 /** The closest approach on the committed path, past or to come; null if none is flown. */
-export function closestApproach(flight: Flight): Closest | null {
+export function closestApproach(flight: Moment): Closest | null {
   const proposed = proposedPlan(flight);
   const plan = proposed ?? flownPlan(flight);
   if (plan === null) return null;
-  const tooClose = (flight.started.value?.min_separation_m ?? 0) - GRAZE;
+  const tooClose = (flight.started?.min_separation_m ?? 0) - GRAZE;
   if (proposed !== null)
     return {
       least: proposed.flown_least_m,
@@ -106,7 +106,7 @@ export function closestApproach(flight: Flight): Closest | null {
       isTooClose: proposed.flown_least_m < tooClose,
     };
   const at = plan.t_s + plan.plan.separation.at_s;
-  const forecast = flight.forecast.value;
+  const forecast = flight.forecast;
   if (reaches(forecast, joinTime(flight) ?? at)) {
     return {
       least: forecast.least_separation_m,
@@ -126,7 +126,7 @@ export function closestApproach(flight: Flight): Closest | null {
 }
 
 /** Whether they are closest when they join, or after: then that is no point of its own. */
-export function isClosestAtJoin(flight: Flight, closest: Closest): boolean {
+export function isClosestAtJoin(flight: Moment, closest: Closest): boolean {
   const proposed = proposedPlan(flight);
   // What is proposed joins when its ideal path ends, but for braking.
   if (proposed !== null) return closest.at > proposed.t_s + proposed.plan.time_to_converge_s - 1;
@@ -175,11 +175,11 @@ export function nextTurn(plan: Planned, t: number): NextTurn | null {
 }
 
 /** The minutes of a plan still to come, and when they are over [s, flight time]. */
-export function minutesToCome(flight: Flight, plan: Planned): { minute: number; t: number }[] {
+export function minutesToCome(flight: Moment, plan: Planned): { minute: number; t: number }[] {
   const join = joinTime(flight);
   if (join === null) return [];
   const last = Math.floor((join - plan.t_s - 1) / 60);
-  const next = Math.max(1, Math.floor((flight.simTime.value - plan.t_s) / 60) + 1);
+  const next = Math.max(1, Math.floor((flight.t - plan.t_s) / 60) + 1);
   return Array.from({ length: Math.max(0, last - next + 1) }, (_, i) => ({
     minute: next + i,
     t: plan.t_s + 60 * (next + i),

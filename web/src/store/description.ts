@@ -4,7 +4,7 @@ import { formatHeading } from "../units";
 import type { Numbers } from "./numbers";
 import { AGE } from "./state-styles";
 import { age, type Guidance, guidance, separation } from "./states";
-import type { Flight } from "./types";
+import type { Moment } from "./types";
 
 const STATE_WORDS: Partial<Record<Guidance, string>> = {
   designated: "Leader designated, a path is looked for.",
@@ -23,11 +23,11 @@ const MODE_WORDS = {
   escape: "turning away to keep the separation",
 } as const;
 
-export function describe(flight: Flight, numbers: Numbers): string {
+export function describe(flight: Moment, numbers: Numbers): string {
   const seen = AGE[age(flight)];
-  const now = flight.reading.value;
+  const now = flight.now;
   if (!seen.map || now === null) return "Map not available.";
-  const leader = flight.started.value?.leader.ident ?? "the leader";
+  const leader = flight.started?.leader.ident ?? "the leader";
   const parts = [
     `Own ship ${MODE_WORDS[now.mode]}, heading ${formatHeading(now.pursuer.heading_deg)}.`,
   ];
@@ -39,7 +39,7 @@ export function describe(flight: Flight, numbers: Numbers): string {
     parts.push(`Slot in ${numbers.toJoin}, least separation ${numbers.least.miles}.`);
   const state = STATE_WORDS[guidance(flight)];
   if (state !== undefined) parts.push(state);
-  if (flight.route.value?.intent_known === false) parts.push("Leader's intent unknown.");
+  if (flight.route?.intent_known === false) parts.push("Leader's intent unknown.");
   if (now.joined) parts.push("Joined.");
   const outlook = separation(flight).state;
   if (outlook === "lost") parts.push("Warning: separation lost.");

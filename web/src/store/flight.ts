@@ -1,27 +1,38 @@
 /**
- * What the display knows of a flight, as signals: the ticks of the stream go in, the picture reads out.
+ * A flight on the page: ticks of a stream or the documents of a recording go in, the instant that is
+ * shown comes out.
  *
  * No DOM and no clock of its own: every wall-clock instant [ms] is handed in.
  */
 
 import { batch, signal } from "@preact/signals";
-import type { Tick } from "../wire";
+import type { Document, Tick } from "../wire";
 import { type FlightClock, readClock, setClock } from "./clock";
-import { blend, type Gap, gap, moveSample, NO_GAP } from "./motion";
-import type { PairSample } from "./pair";
-import { reduce } from "./reduce";
-import { separation } from "./states";
-import type { Connection, Flight, Link } from "./types";
+import { createHistory, type History, momentAt } from "./history";
+import { blend, expected, type Gap, gap, moveSample, NO_GAP } from "./motion";
+import { type PairSample, pairSample } from "./pair";
+import { NOTHING_KNOWN } from "./reduce";
+import type { Connection, Flight, Link, Moment } from "./types";
 
-/** A flight's signals and the four things that happen to them. */
+/** A flight's signals and what happens to them. */
 export interface FlightStore {
   readonly flight: Flight;
+  /** All that is known of it, for what is drawn over time. */
+  readonly history: () => History;
   /** Takes in one tick that arrived at `wall` [ms]. */
   receive(tick: Tick, wall: number): void;
+  /** Shows a recording in place of what was shown, standing at its beginning. */
+  load(id: string, documents: readonly Document[], wall: number): void;
+  /** Takes in what was on record of the flight before the page joined it. */
+  merge(documents: readonly Document[], wall: number): void;
   /** Draws the picture of the instant `wall` [ms]. */
   advance(wall: number): void;
   /** Carries what moves on the picture that is drawn on to `wall` [ms], and changes nothing else. */
   glide(wall: number): void;
+  /** Shows flight time `t` [s], going on from there at `rate` seconds a second; 0 to stand. */
+  seek(t: number, rate: number, wall: number): void;
+  /** Shows the newest there is, and what comes. */
+  follow(wall: number): void;
   /** Notes what became of the socket. */
   link(state: Link): void;
 }
@@ -36,70 +47,201 @@ export const STALE_AGE = 2;
 /** Data older than this counts as lost [s]. */
 export const LOST_AGE = 5;
 
+/** A flight of which nothing is known, at any instant. */
+export const NO_MOMENT: Moment = {
+  ...NOTHING_KNOWN,
+  sample: null,
+  joinedAt: Number.POSITIVE_INFINITY,
+  belowAt: Number.NEGATIVE_INFINITY,
+  trail: { pursuer: [], leader: [] },
+  t: 0,
+  now: null,
+  rate: 1,
+  dataAge: 0,
+  ended: false,
+  isSent: false,
+};
+
 export function createFlightStore(): FlightStore {
   const flight = emptyFlight();
-  let clock: FlightClock | null = null;
-  let fresh = -Infinity; // wall time at which the data were last known to be new [ms]
+  let history = createHistory();
+  let clock: FlightClock | null = null; // of the flight
+  let own: FlightClock = { wall: 0, t: 0, rate: 0 }; // of the viewer, behind the newest
+  let newest: PairSample | null = null;
+  let heard: PairSample | null = null; // the newest sample that heard of the leader
+  let fresh = Number.NEGATIVE_INFINITY; // wall time at which the data were last known to be new [ms]
   let linked: Link = "connecting";
-  let readAt = -Infinity;
+  let readAt = Number.NEGATIVE_INFINITY;
   let offset: { gap: Gap; wall: number } = { gap: NO_GAP, wall: 0 };
+
+  function clear(id: string): void {
+    history = createHistory();
+    clock = null;
+    newest = null;
+    heard = null;
+    fresh = Number.NEGATIVE_INFINITY;
+    readAt = Number.NEGATIVE_INFINITY;
+    offset = { gap: NO_GAP, wall: 0 };
+    flight.id.value = id;
+    flight.source.value = { kind: "live" };
+    flight.loop.value = null;
+    flight.isSent.value = false;
+    flight.span.value = null;
+    flight.moment.value = NO_MOMENT;
+    flight.read.value = NO_MOMENT;
+    flight.since.value = 0;
+  }
 
   function receive(tick: Tick, wall: number): void {
     batch(() => {
-      const joining =
-        flight.id.value !== tick.flight_id ||
-        tick.documents.some((document) => document.kind === "flight_started");
-      if (flight.id.value !== tick.flight_id) {
-        clear(flight);
-        flight.id.value = tick.flight_id;
-        clock = null;
-      }
+      if (flight.id.value !== tick.flight_id) clear(tick.flight_id);
+      const joining = tick.documents.some(({ kind }) => kind === "flight_started");
+      if (joining) history.merge(tick.documents);
+      else history.take(tick.documents);
+      if (tick.documents.some(({ kind }) => kind === "engagement_changed"))
+        flight.isSent.value = false;
       const running = tick.paused || tick.ended ? 0 : tick.rate;
       clock = setClock(clock, { t: tick.t_s, rate: running, wall });
       flight.clock.value = { rate: tick.rate, paused: tick.paused, ended: tick.ended };
-      const before = flight.sample.value;
-      for (const document of tick.documents) {
-        const since = wall - ((tick.t_s - document.t_s) / tick.rate) * 1000;
-        reduce(flight, document, { joining, wall, since });
+      const sample = newestOf(tick.documents);
+      if (sample !== null || running === 0) fresh = wall;
+      if (sample !== null) {
+        newest = sample;
+        const shown = flight.moment.value.now;
+        const isAtEdge = flight.source.value.kind === "live";
+        const predicted = moveSample(sample, (shown?.t_s ?? sample.t_s) - sample.t_s);
+        const isGliding = shown !== null && !joining && isAtEdge && running > 0;
+        offset = { gap: isGliding ? gap(shown, predicted) : NO_GAP, wall };
       }
-      const newest = flight.sample.value;
-      if (newest !== before || running === 0) fresh = wall;
-      if (newest !== null && newest !== before) {
-        const shown = flight.now.value;
-        const predicted = moveSample(newest, (shown?.t_s ?? newest.t_s) - newest.t_s);
-        offset = { gap: shown === null || joining ? NO_GAP : gap(shown, predicted), wall };
-      }
+      setSpan();
     });
     advance(wall);
   }
 
+  function newestOf(documents: readonly Document[]): PairSample | null {
+    const pair = history.knownAt(Number.POSITIVE_INFINITY).started;
+    const last = documents.findLast((each) => each.kind === "sample");
+    if (pair === null || last?.kind !== "sample") return null;
+    const sample = pairSample(last, pair);
+    if (sample?.leader_age_s === 0) heard = sample;
+    return sample === null ? null : expected(sample, heard);
+  }
+
+  function setSpan(): void {
+    const span = history.knots.span;
+    const first = span?.first ?? newest?.t_s;
+    if (first === undefined) return;
+    const last = Math.max(span?.last ?? first, newest?.t_s ?? first);
+    const before = flight.span.value;
+    if (before?.first !== first || before.last !== last) flight.span.value = { first, last };
+  }
+
+  function load(id: string, documents: readonly Document[], wall: number): void {
+    batch(() => {
+      clear(id);
+      history.merge(documents);
+      flight.clock.value = { rate: 1, paused: true, ended: true };
+      setSpan();
+      seek(flight.span.value?.first ?? 0, 0, wall);
+    });
+  }
+
+  function merge(documents: readonly Document[], wall: number): void {
+    batch(() => {
+      history.merge(documents);
+      setSpan();
+      advance(wall);
+    });
+  }
+
   function advance(wall: number): void {
     batch(() => {
-      flight.wall.value = wall;
-      flight.dataAge.value = Number.isFinite(fresh) ? Math.max(0, (wall - fresh) / 1000) : 0;
-      flight.connection.value = connection(flight, linked);
-      const superseded = flight.superseded.value;
-      if (superseded !== null && wall >= superseded.until) flight.superseded.value = null;
-      const sample = flight.sample.value;
-      if (sample === null || clock === null) return;
-      const shown = flight.simTime.value + flight.since.value;
-      const t = Math.max(shown, timeAt(clock, sample, wall));
-      flight.simTime.value = t;
+      const moment = flight.source.value.kind === "live" ? liveAt(wall) : replayAt(wall);
+      flight.connection.value = connection(flight, moment.dataAge, linked);
+      flight.moment.value = moment;
       flight.since.value = 0;
-      const moved = moveSample(sample, t - sample.t_s);
-      flight.now.value = blend(moved, offset.gap, wall - offset.wall);
-      if (separation(flight).state === "lost") flight.belowSince.value = wall;
-      if (flight.reading.value !== null && wall - readAt < READING_PERIOD - HALF_FRAME) return;
+      const isRead = flight.read.value.now !== null;
+      if (isRead && Math.abs(wall - readAt) < READING_PERIOD - HALF_FRAME) return;
       readAt = wall;
-      flight.reading.value = flight.now.value;
+      flight.read.value = moment;
+    });
+  }
+
+  /** The newest there is, carried on to this instant. */
+  function liveAt(wall: number): Moment {
+    const { rate, ended } = flight.clock.value;
+    const dataAge = Number.isFinite(fresh) ? Math.max(0, (wall - fresh) / 1000) : 0;
+    const known = history.knownAt(Number.POSITIVE_INFINITY);
+    const seen = history.seenAt(Number.POSITIVE_INFINITY);
+    const whole = { ...known, ...seen, rate, dataAge, ended, isSent: false };
+    if (newest === null || clock === null) {
+      // the end of a recording
+      const t = history.knots.span?.last ?? 0;
+      return { ...whole, t, now: seen.sample };
+    }
+    const shown = flight.moment.value.t + flight.since.value;
+    const t = Math.max(shown, timeAt(clock, newest, wall));
+    const moved = moveSample(newest, t - newest.t_s);
+    const now = blend(moved, offset.gap, wall - offset.wall);
+    return { ...whole, sample: newest, t, now };
+  }
+
+  /** What the viewer's own clock shows; at the end it stands, or goes on with a flight that flies. */
+  function replayAt(wall: number): Moment {
+    const { first, last } = flight.span.value ?? { first: 0, last: 0 };
+    const loop = flight.loop.value;
+    let t = readClock(own, wall);
+    if (loop !== null && own.rate > 0 && t >= loop.to) {
+      t = loop.from;
+      own = { ...own, t, wall };
+    }
+    if (t >= last && own.rate > 0) {
+      if (!flight.clock.value.ended) {
+        flight.source.value = { kind: "live" };
+        return liveAt(wall);
+      }
+      stand(last, wall);
+      t = last;
+    }
+    return momentAt(history, Math.max(first, Math.min(t, last)), { rate: Math.max(1, own.rate) });
+  }
+
+  function stand(t: number, wall: number): void {
+    own = { wall, t, rate: 0 };
+    flight.source.value = { kind: "replay", rate: 0 };
+  }
+
+  function seek(t: number, rate: number, wall: number): void {
+    const span = flight.span.value;
+    if (span === null) return;
+    own = { wall, t: Math.max(span.first, Math.min(t, span.last)), rate };
+    readAt = Number.NEGATIVE_INFINITY;
+    batch(() => {
+      flight.source.value = { kind: "replay", rate };
+      advance(wall);
+    });
+  }
+
+  function follow(wall: number): void {
+    batch(() => {
+      offset = { gap: NO_GAP, wall };
+      readAt = Number.NEGATIVE_INFINITY;
+      flight.source.value = { kind: "live" };
+      flight.moment.value = { ...flight.moment.value, t: Number.NEGATIVE_INFINITY };
+      flight.since.value = 0;
+      advance(wall);
     });
   }
 
   function glide(wall: number): void {
-    const sample = flight.sample.value;
-    if (sample === null || clock === null) return;
-    const since = timeAt(clock, sample, wall) - flight.simTime.value;
-    flight.since.value = Math.max(flight.since.value, since);
+    const { moment, since, source } = flight;
+    const behind = source.value.kind === "replay";
+    if (!behind && (newest === null || clock === null)) return;
+    const t =
+      behind || newest === null || clock === null
+        ? readClock(own, wall)
+        : timeAt(clock, newest, wall);
+    since.value = Math.max(since.value, t - moment.value.t);
   }
 
   /** Flight time on the screen [s]: at most so far ahead of the newest sample. */
@@ -109,87 +251,48 @@ export function createFlightStore(): FlightStore {
 
   function link(state: Link): void {
     linked = state;
-    flight.connection.value = connection(flight, linked);
+    flight.connection.value = connection(flight, flight.moment.value.dataAge, linked);
   }
 
-  return { flight, receive, advance, glide, link };
+  return {
+    flight,
+    history: () => history,
+    receive,
+    load,
+    merge,
+    advance,
+    glide,
+    seek,
+    follow,
+    link,
+  };
 }
 
 /** A flight of which nothing is known. */
 export function emptyFlight(): Flight {
   return {
     id: signal(null),
-    started: signal(null),
-    route: signal(null),
-    plan: signal(null),
-    proposal: signal(null),
-    forecast: signal(null),
-    superseded: signal(null),
-    unavailable: signal(null),
-    alerts: signal([]),
-    unable: signal(null),
-    promise: signal(null),
-    lost: signal(null),
-    mode: signal(null),
-    modeSince: signal(-Infinity),
-    planSince: signal(-Infinity),
-    lostSince: signal(-Infinity),
-    joinedSince: signal(-Infinity),
-    belowSince: signal(-Infinity),
-    engagement: signal(null),
-    isSent: signal(false),
-    heard: signal(null),
-    sample: signal(null),
-    now: signal(null),
-    reading: signal(null),
-    wall: signal(0),
-    simTime: signal(0),
+    moment: signal(NO_MOMENT),
+    read: signal(NO_MOMENT),
     since: signal(0),
-    dataAge: signal(0),
-    trail: { pursuer: signal([]), leader: signal([]) },
-    ended: signal(null),
+    source: signal({ kind: "live" }),
+    span: signal(null),
+    loop: signal(null),
     clock: signal({ rate: 1, paused: false, ended: false }),
     connection: signal("connecting"),
-    messages: signal([]),
+    isSent: signal(false),
   };
 }
 
-function clear(flight: Flight): void {
-  const empty = emptyFlight();
-  flight.started.value = null;
-  flight.route.value = null;
-  flight.plan.value = null;
-  flight.proposal.value = null;
-  flight.forecast.value = null;
-  flight.superseded.value = null;
-  flight.unavailable.value = null;
-  flight.alerts.value = [];
-  flight.unable.value = null;
-  flight.lost.value = null;
-  flight.mode.value = null;
-  flight.modeSince.value = -Infinity;
-  flight.planSince.value = -Infinity;
-  flight.lostSince.value = -Infinity;
-  flight.joinedSince.value = -Infinity;
-  flight.belowSince.value = -Infinity;
-  flight.engagement.value = null;
-  flight.isSent.value = false;
-  flight.heard.value = null;
-  flight.sample.value = null;
-  flight.now.value = null;
-  flight.reading.value = null;
-  flight.simTime.value = 0;
-  flight.since.value = 0;
-  flight.trail.pursuer.value = [];
-  flight.trail.leader.value = [];
-  flight.ended.value = null;
-  flight.clock.value = empty.clock.value;
-  flight.messages.value = [];
+/** How fast flight time goes on the screen [s of flight per s]. */
+export function speedOf({ source, clock }: Flight): number {
+  if (source.value.kind === "replay") return source.value.rate;
+  const { rate, paused, ended } = clock.value;
+  return paused || ended ? 0 : rate;
 }
 
-function connection(flight: Flight, linked: Link): Connection {
-  const age = flight.dataAge.value;
+function connection(flight: Flight, age: number, linked: Link): Connection {
   if (linked === "closed" || age > LOST_AGE) return "lost";
-  if (flight.sample.value === null || linked === "connecting") return "connecting";
+  if (flight.span.value === null || linked === "connecting") return "connecting";
   return age > STALE_AGE ? "stale" : "live";
 }

@@ -61,6 +61,90 @@ export function moveSample(sample: PairSample, dt: number): PairSample {
   };
 }
 
+/** The two between two samples, at flight time `t` [s]: what is decided is as in the first. */
+export function interpolate(from: PairSample, to: PairSample, t: number): PairSample {
+  const length = to.t_s - from.t_s;
+  const part = (t - from.t_s) / length;
+  const pursuer = meanwhile(from.pursuer, to.pursuer, part, length);
+  const leader = meanwhile(from.leader, to.leader, part, length);
+  const mixed = (name: Mixed) => mix(from[name], to[name], part);
+  return {
+    ...moveSample(from, t - from.t_s),
+    pursuer,
+    leader,
+    separation_m: Math.hypot(pursuer.x_m - leader.x_m, pursuer.y_m - leader.y_m),
+    closure_mps: mixed("closure_mps"),
+    least_separation_m: mixed("least_separation_m"),
+    spacing_error_m: mixed("spacing_error_m"),
+    cross_track_m: mixed("cross_track_m"),
+    commanded_tas_mps: mixed("commanded_tas_mps"),
+  };
+}
+
+type Mixed =
+  | "closure_mps"
+  | "least_separation_m"
+  | "spacing_error_m"
+  | "cross_track_m"
+  | "commanded_tas_mps";
+
+function mix(from: number, to: number, part: number): number {
+  return from + (to - from) * part;
+}
+
+/** An aircraft between two samples `length` [s] apart: places and heading by Hermite's cubic. */
+function meanwhile(
+  from: AircraftSample,
+  to: AircraftSample,
+  part: number,
+  length: number,
+): AircraftSample {
+  const [begins, ends] = [groundVelocity(from), groundVelocity(to)];
+  const turned = wrap180(to.heading_deg - from.heading_deg);
+  const drifted = wrap180(to.track_deg - from.track_deg);
+  const heading = hermite(
+    0,
+    turned,
+    from.turn_rate_degps * length,
+    to.turn_rate_degps * length,
+    part,
+  );
+  return {
+    ...from,
+    x_m: hermite(from.x_m, to.x_m, begins.x * length, ends.x * length, part),
+    y_m: hermite(from.y_m, to.y_m, begins.y * length, ends.y * length, part),
+    heading_deg: wrap360(from.heading_deg + heading),
+    track_deg: wrap360(from.track_deg + drifted * part),
+    bank_deg: mix(from.bank_deg, to.bank_deg, part),
+    turn_rate_degps: mix(from.turn_rate_degps, to.turn_rate_degps, part),
+    tas_mps: mix(from.tas_mps, to.tas_mps, part),
+    ground_speed_mps: mix(from.ground_speed_mps, to.ground_speed_mps, part),
+    altitude_m: mix(from.altitude_m, to.altitude_m, part),
+  };
+}
+
+function groundVelocity({ ground_speed_mps, track_deg }: AircraftSample): Vector {
+  return velocity(ground_speed_mps, track_deg);
+}
+
+/** Hermite's cubic from `a` to `b` with slopes `da` and `db` a unit, at `s` in [0, 1]. */
+function hermite(a: number, b: number, da: number, db: number, s: number): number {
+  const [s2, s3] = [s * s, s * s * s];
+  return (
+    a * (2 * s3 - 3 * s2 + 1) + da * (s3 - 2 * s2 + s) + b * (3 * s2 - 2 * s3) + db * (s3 - s2)
+  );
+}
+
+/** A sample with the leader where it is expected, if nothing was heard of it since `heard`. */
+export function expected(sample: PairSample, heard: PairSample | null): PairSample {
+  if (sample.leader_age_s === 0 || heard === null) return sample;
+  const straight = { ...heard.leader, bank_deg: 0, turn_rate_degps: 0 };
+  const leader = moveAircraft(straight, sample.t_s - heard.t_s);
+  const { pursuer } = sample;
+  const separation = Math.hypot(pursuer.x_m - leader.x_m, pursuer.y_m - leader.y_m);
+  return { ...sample, leader, separation_m: separation };
+}
+
 /** How far all has moved since a sample. World: x east, y north [m]. */
 export interface Moved {
   readonly own: Vector;

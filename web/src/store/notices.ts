@@ -4,8 +4,8 @@ import { formatMiles } from "../units";
 import type { Alert, AlertSubject, Mode, PlanReason, Reason, UnableReason } from "../wire";
 import type { Colour } from "./colours";
 import { AGE, GUIDANCE } from "./state-styles";
-import { age, type Guidance, guidance, hasLapsed, leaderAge, separation } from "./states";
-import type { Flight } from "./types";
+import { age, type Guidance, guidance, hasLapsed, isRecent, leaderAge, separation } from "./states";
+import type { Moment } from "./types";
 
 export interface Notice {
   readonly level: "warning" | "caution" | "prompt" | "advice";
@@ -76,58 +76,58 @@ export const ENTERED: Record<Mode, string> = {
   escape: "RG ESCAPE",
 };
 
-/** Advice stands this long [ms]. */
-const SHOWN = 10_000;
-/** A warning stays this long after its cause is gone, so that it does not blink on the edge [ms]. */
-const HELD = 3_000;
+/** Advice stands this long [s]. */
+const SHOWN = 10;
+/** A warning stays this long after its cause is gone, so that it does not blink on the edge [s]. */
+const HELD = 3;
 
 /** All notices of this moment, the most urgent first. */
-export function noticesOf(flight: Flight): readonly Notice[] {
+export function noticesOf(flight: Moment): readonly Notice[] {
   const notices: Notice[] = [];
   const seen = AGE[age(flight)];
-  const isRecent = (since: number) => flight.wall.value - since < SHOWN;
+  const isNews = (since: number | undefined) => isRecent(flight, since, SHOWN);
   const isLost = separation(flight).state === "lost" || isHeld(flight);
-  if (seen.map && flight.now.value !== null && isLost)
+  if (seen.map && flight.now !== null && isLost)
     notices.push({ level: "warning", text: "SEPARATION" });
-  else if (flight.lost.value !== null && flight.wall.value - flight.lostSince.value < HELD)
+  else if (flight.lost !== null && isRecent(flight, flight.lost.t_s, HELD))
     notices.push({ level: "warning", text: "SEPARATION" });
   const seconds = leaderAge(flight);
   const state = guidance(flight);
   if (state === "data_lost") notices.push({ level: "caution", text: "LDR DATA LOST" });
   else if (seen.map && seconds > 5 && seconds <= 24 && GUIDANCE[state].designated)
     notices.push({ level: "caution", text: `LDR DATA ${Math.floor(seconds)} S` });
-  if (!seen.guidance || flight.now.value === null) return notices;
-  for (const alert of flight.alerts.value)
+  if (!seen.guidance || flight.now === null) return notices;
+  for (const alert of flight.alerts)
     notices.push({ level: ALERT_NOTICE[alert.level], text: alertText(flight, alert) });
   const prompt = promptOf(flight, state);
   if (prompt !== null) notices.push(prompt);
-  const [unavailable, unable] = [flight.unavailable.value, flight.unable.value];
+  const [unavailable, unable] = [flight.unavailable, flight.unable];
   const isAsked = state !== "off" && state !== "data_lost";
   if (isAsked && unable !== null)
     notices.push({ level: "caution", text: `RG UNABLE: ${UNABLE_TO[unable.reason]}` });
   else if (isAsked && unavailable !== null)
     notices.push({ level: "caution", text: `RG UNABLE: ${UNABLE[unavailable.answer.reason]}` });
-  if (flight.sample.value?.joined === true) {
-    const spacing = formatMiles(flight.started.value?.slot_distance_m ?? 0);
-    const text = isRecent(flight.joinedSince.value) ? "JOINED" : `SPACING ${spacing} NM`;
+  if (flight.sample?.joined === true) {
+    const spacing = formatMiles(flight.started?.slot_distance_m ?? 0);
+    const text = isNews(flight.joinedAt) ? "JOINED" : `SPACING ${spacing} NM`;
     notices.push({ level: "advice", text });
   }
-  const plan = flight.plan.value;
-  if (plan?.announced === true && unavailable === null && isRecent(flight.planSince.value))
+  const plan = flight.plan;
+  if (plan?.announced === true && unavailable === null && isNews(plan.t_s))
     notices.push({ level: "advice", text: REPLANNED[plan.reason] });
-  const mode = flight.mode.value;
-  const isNew = mode !== null && state !== "data_lost" && isRecent(flight.modeSince.value);
+  const mode = flight.mode;
+  const isNew = mode !== null && state !== "data_lost" && isNews(mode.t_s);
   if (isNew && !(mode.mode === "converge" && notices.length > 0))
     notices.push({ level: "advice", text: ENTERED[mode.mode] });
   return notices.sort((a, b) => URGENCY.indexOf(a.level) - URGENCY.indexOf(b.level));
 }
 
 /** What the crew can do next. */
-function promptOf(flight: Flight, state: Guidance): Notice | null {
+function promptOf(flight: Moment, state: Guidance): Notice | null {
   switch (state) {
     case "designated": {
-      const ident = flight.started.value?.leader.ident ?? "";
-      const reading = flight.reading.value;
+      const ident = flight.started?.leader.ident ?? "";
+      const reading = flight.now;
       const apart = reading === null ? "" : formatMiles(reading.separation_m);
       return { level: "advice", text: `LDR ${ident} ${apart} NM` };
     }
@@ -142,12 +142,12 @@ function promptOf(flight: Flight, state: Guidance): Notice | null {
 }
 
 /** Whether the separation was lost a moment ago. */
-function isHeld(flight: Flight): boolean {
-  return flight.wall.value - flight.belowSince.value < HELD;
+function isHeld(flight: Moment): boolean {
+  return isRecent(flight, flight.belowAt, HELD);
 }
 
-function alertText(flight: Flight, alert: Alert): string {
+function alertText(flight: Moment, alert: Alert): string {
   if (alert.subject !== "separation") return ALERTED[alert.subject];
-  const within = Math.max(0, Math.round(alert.predicted_at_s - flight.simTime.value));
+  const within = Math.max(0, Math.round(alert.predicted_at_s - flight.t));
   return `${ALERTED.separation} IN ${within} S`;
 }

@@ -28,7 +28,7 @@ import type { PairSample } from "./pair";
 import { closureText, crossTrackText, spacingText } from "./reading";
 import { AGE, GUIDANCE } from "./state-styles";
 import { age, ageOf, type Guidance, guidance, hasLapsed, leaderAge } from "./states";
-import type { Flight } from "./types";
+import type { Moment } from "./types";
 
 /** The next turn, or the join: bearing, distance and how long until then. */
 export interface NextPoint {
@@ -141,17 +141,17 @@ const ARROW_FROM = 2 * KT;
 export const ROLL_IN = 30;
 const NOTHING = "---";
 
-export function numbersOf(flight: Flight): Numbers {
+export function numbersOf(flight: Moment): Numbers {
   const seen = AGE[age(flight)];
-  const sample = seen.numbers ? flight.reading.value : null;
+  const sample = seen.numbers ? flight.now : null;
   const guided = seen.guidance ? sample : null;
   const style = GUIDANCE[guidance(flight)];
   const leader = AGE[ageOf(leaderAge(flight))].numbers;
   const left = guided === null ? null : timeToJoin(flight);
-  const started = flight.started.value;
+  const started = flight.started;
   const shown = leader ? (guided ?? sample) : null;
   return {
-    readAt: flight.reading.value?.t_s ?? null,
+    readAt: flight.now?.t_s ?? null,
     sample,
     guided,
     isSpacing: guided !== null && style.spacing,
@@ -188,8 +188,8 @@ export function numbersOf(flight: Flight): Numbers {
 const AT_LEAST = 1;
 
 /** The least separation until a reading, which is a little earlier or later than the sample that says it [m]. */
-function leastUntil(flight: Flight, reading: PairSample): number {
-  const told = flight.sample.value ?? reading;
+function leastUntil(flight: Moment, reading: PairSample): number {
+  const told = flight.sample ?? reading;
   const least = told.least_separation_m;
   if (told.leader_age_s > 0) return least;
   const isFalling = told.separation_m - least < AT_LEAST;
@@ -212,8 +212,8 @@ function timingOf({ mode, spacing_error_m: error, leader }: PairSample): Timing 
   };
 }
 
-function troubleOf(flight: Flight): Trouble | null {
-  const [unavailable, unable] = [flight.unavailable.value, flight.unable.value];
+function troubleOf(flight: Moment): Trouble | null {
+  const [unavailable, unable] = [flight.unavailable, flight.unable];
   if (unavailable !== null)
     return {
       label: `No plan at ${formatClock(unavailable.t_s)}`,
@@ -222,8 +222,8 @@ function troubleOf(flight: Flight): Trouble | null {
   return unable === null ? null : { label: "Unable", sentence: inPageUnits(unable.message) };
 }
 
-function airTexts(flight: Flight, reading: PairSample | null) {
-  const wind = reading === null ? null : (flight.started.value?.wind ?? null);
+function airTexts(flight: Moment, reading: PairSample | null) {
+  const wind = reading === null ? null : (flight.started?.wind ?? null);
   return {
     gs: reading === null ? NOTHING : formatKnots(reading.pursuer.ground_speed_mps).padStart(3, "0"),
     tas: reading === null ? NOTHING : formatKnots(reading.pursuer.tas_mps).padStart(3, "0"),
@@ -243,12 +243,12 @@ function formatSide(offset: number): string {
   return miles === "0.0" ? "" : `${miles}${offset > 0 ? "R" : "L"}`;
 }
 
-function nextPoint(flight: Flight, reading: PairSample): NextPoint | null {
+function nextPoint(flight: Moment, reading: PairSample): NextPoint | null {
   const style = GUIDANCE[guidance(flight)];
   const plan = style.points ? shownPlan(flight) : null;
   if (plan === null) {
     if (!style.crossTrack) return null;
-    const name = flight.started.value?.leader.ident ?? "LEADER";
+    const name = flight.started?.leader.ident ?? "LEADER";
     return { name, ...toward(reading, reading.leader), left: "", isUrgent: false };
   }
   const turn = nextTurn(plan, reading.t_s);
@@ -263,14 +263,14 @@ function nextPoint(flight: Flight, reading: PairSample): NextPoint | null {
   };
 }
 
-function nextTurnText(flight: Flight, reading: PairSample): NextTurnText | null {
+function nextTurnText(flight: Moment, reading: PairSample): NextTurnText | null {
   const plan = shownPlan(flight);
   const turn = plan === null ? null : nextTurn(plan, reading.t_s);
   if (turn === null) return null;
   return { size: `${turn.size[0]} ${turn.size.slice(1)}°`, left: formatLeft(turn.in) };
 }
 
-function leastAhead(flight: Flight, reading: PairSample): LeastAhead | null {
+function leastAhead(flight: Moment, reading: PairSample): LeastAhead | null {
   const closest = closestApproach(flight);
   if (closest === null) return null;
   const miles = formatMiles(closest.least);

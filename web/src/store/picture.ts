@@ -35,9 +35,18 @@ import { type Notice, noticesOf } from "./notices";
 import { type Numbers, numbersOf, ROLL_IN } from "./numbers";
 import type { PairCard, PairSample } from "./pair";
 import { AGE, type AgeStyle, GUIDANCE, type GuidanceStyle } from "./state-styles";
-import { age, ageOf, type Guidance, guidance, leaderAge, type Outlook, separation } from "./states";
+import {
+  age,
+  ageOf,
+  type Guidance,
+  guidance,
+  isRecent,
+  leaderAge,
+  type Outlook,
+  separation,
+} from "./states";
 import type { TrailPoint } from "./trail";
-import type { Flight } from "./types";
+import type { Flight, Moment } from "./types";
 
 export type { Moved } from "./motion";
 
@@ -146,28 +155,29 @@ export interface Shown {
   readonly words: ReadonlySignal<string>;
 }
 
-/** A new mode is boxed this long [wall ms]. */
-const BOXED = 10_000;
+/** A new mode is boxed this long, and the plan before is shown [s]. */
+const BOXED = 10;
+const SUPERSEDED_SHOWN = 3;
 
-export function createShown(flight: Flight): Shown {
-  const numbers = computed(() => numbersOf(flight));
+export function createShown({ moment, read, since, isSent }: Flight): Shown {
+  const numbers = computed(() => numbersOf(read.value));
   return {
-    picture: computed(() => pictureOf(flight)),
+    picture: computed(() => pictureOf({ ...moment.value, isSent: isSent.value })),
     moved: computed(() => {
-      const now = flight.now.value;
-      return now === null ? STILL : movedBy(now, flight.since.value);
+      const { now } = moment.value;
+      return now === null ? STILL : movedBy(now, since.value);
     }),
     numbers,
-    words: computed(() => describe(flight, numbers.value)),
+    words: computed(() => describe(read.value, numbers.value)),
   };
 }
 
-export function pictureOf(flight: Flight): Picture {
+export function pictureOf(flight: Moment): Picture {
   const seen = AGE[age(flight)];
   const seconds = leaderAge(flight);
   const known = seen.map ? AGE[ageOf(seconds)] : seen;
-  const now = seen.map ? flight.now.value : null;
-  const guided = seen.guidance ? flight.now.value : null;
+  const now = seen.map ? flight.now : null;
+  const guided = seen.guidance ? flight.now : null;
   const state = guidance(flight);
   const style = guided === null ? null : GUIDANCE[state];
   const designated = GUIDANCE[state].designated;
@@ -175,7 +185,7 @@ export function pictureOf(flight: Flight): Picture {
   const isAhead = style !== null && AHEAD.includes(style.path);
   const pair = isAhead ? closestApproach(flight) : null;
   const isAtJoin = pair !== null && isClosestAtJoin(flight, pair);
-  const t = flight.simTime.value;
+  const t = flight.t;
   return {
     t,
     style,
@@ -188,19 +198,19 @@ export function pictureOf(flight: Flight): Picture {
     keepOut: keepOut(flight, seconds),
     designated,
     separation: separation(flight),
-    pose: flight.now.value?.pursuer ?? null,
+    pose: flight.now?.pursuer ?? null,
     now,
     guided,
-    started: flight.started.value,
-    ident: flight.started.value?.leader.ident ?? "LEADER",
+    started: flight.started,
+    ident: flight.started?.leader.ident ?? "LEADER",
     trend: now === null ? [] : trendOf(now),
-    route: now === null || !designated || !known.guidance ? null : flight.route.value,
+    route: now === null || !designated || !known.guidance ? null : flight.route,
     wind: windOver(flight),
-    trail: now === null || !designated ? NO_TRAIL : flight.trail.leader.value,
-    plan: guided === null ? null : flight.plan.value,
+    trail: now === null || !designated ? NO_TRAIL : flight.trail.leader,
+    plan: guided === null ? null : flight.plan,
     flown,
-    superseded: guided === null ? null : (flight.superseded.value?.plan ?? null),
-    forecast: flight.forecast.value,
+    superseded: guided === null ? null : supersededPlan(flight),
+    forecast: flight.forecast,
     until: shownUntil(flight, guided),
     turns: flown === null ? [] : turnsAhead(flight, flown),
     minutes: flown === null ? [] : minutesAhead(flight, flown),
@@ -212,19 +222,24 @@ export function pictureOf(flight: Flight): Picture {
     places: placesOf(flight, now, style),
     slotTrack: slotTrack(flight),
     order: guided === null ? "" : orderOf(flight, state),
-    boxed: style !== null && flight.wall.value - flight.modeSince.value < BOXED,
+    boxed: style !== null && isRecent(flight, flight.mode?.t_s, BOXED),
     notices: noticesOf(flight),
-    ended: flight.clock.value.ended,
+    ended: flight.ended,
   };
+}
+
+function supersededPlan(flight: Moment): PlanChanged | null {
+  const { superseded } = flight;
+  return isRecent(flight, superseded?.at, SUPERSEDED_SHOWN) ? (superseded?.plan ?? null) : null;
 }
 
 /** A rejection is shown this long [s]. */
 const REJECTION_SHOWN = 10;
 
-function orderOf(flight: Flight, state: Guidance): Order {
-  if (flight.isSent.value) return "SENT";
-  const answer = flight.engagement.value;
-  const since = answer === null ? Number.POSITIVE_INFINITY : flight.simTime.value - answer.t_s;
+function orderOf(flight: Moment, state: Guidance): Order {
+  if (flight.isSent) return "SENT";
+  const answer = flight.engagement;
+  const since = answer === null ? Number.POSITIVE_INFINITY : flight.t - answer.t_s;
   if (answer?.engagement === answer?.previous && since < REJECTION_SHOWN) return "REJECTED";
   return state === "armed" || state === "converge" ? "VALID" : "";
 }
@@ -236,7 +251,7 @@ const SEEN_EVERY = 30;
 
 type Place = Pick<PathPoint, "x_m" | "y_m">;
 
-function placesOf(flight: Flight, now: PairSample | null, style: GuidanceStyle | null): Place[] {
+function placesOf(flight: Moment, now: PairSample | null, style: GuidanceStyle | null): Place[] {
   if (now === null) return [];
   const places: Place[] = [now.leader];
   if (style === null || !style.designated) return places;
@@ -261,8 +276,8 @@ function flagOf(seen: AgeStyle, known: AgeStyle, state: Guidance): AgeStyle["fla
 /** How far a leader can be from where it is expected: as if it turned since, at 25° of bank [m/s²]. */
 const ASTRAY = 0.5 * 9.81 * Math.tan((25 * Math.PI) / 180);
 
-function keepOut(flight: Flight, seconds: number): number {
-  const least = flight.started.value?.min_separation_m ?? 0;
+function keepOut(flight: Moment, seconds: number): number {
+  const least = flight.started?.min_separation_m ?? 0;
   return least > 0 && seconds > STALE_AGE ? least + ASTRAY * seconds ** 2 : least;
 }
 
@@ -270,8 +285,8 @@ function keepOut(flight: Flight, seconds: number): number {
 const AHEAD: readonly GuidanceStyle["path"][] = ["proposed", "armed", "committed"];
 const NO_TRAIL: readonly TrailPoint[] = [];
 
-function windOver(flight: Flight): Vector {
-  const wind = flight.started.value?.wind;
+function windOver(flight: Moment): Vector {
+  const wind = flight.started?.wind;
   return wind === undefined ? CALM : windVector(wind);
 }
 
@@ -291,25 +306,25 @@ function trendOf({ pursuer }: PairSample): TrendPoint[] {
 }
 
 /** Up to when the path is drawn: the join, or once joined where the leader is now. */
-function shownUntil(flight: Flight, guided: PairSample | null): number {
+function shownUntil(flight: Moment, guided: PairSample | null): number {
   if (guided?.mode !== "follow") return joinTime(flight) ?? Number.POSITIVE_INFINITY;
-  const length = flight.started.value?.slot_distance_m ?? 0;
+  const length = flight.started?.slot_distance_m ?? 0;
   // Its end moves on in whole seconds, so that what waits stays as it is.
-  return Math.ceil(flight.simTime.value) + length / Math.max(1, guided.leader.ground_speed_mps);
+  return Math.ceil(flight.t) + length / Math.max(1, guided.leader.ground_speed_mps);
 }
 
-function turnsAhead(flight: Flight, plan: Planned): TurnAhead[] {
+function turnsAhead(flight: Moment, plan: Planned): TurnAhead[] {
   return turnsOf(plan)
     .map((turn) => ({
       ...turn,
       begins: plan.t_s + turn.segment.start.t_s,
       ends: plan.t_s + turn.segment.end.t_s,
     }))
-    .filter(({ ends }) => ends > flight.simTime.value)
+    .filter(({ ends }) => ends > flight.t)
     .map((turn) => ({
       ...turn,
-      hasBegun: flight.simTime.value > turn.begins,
-      isRollIn: isSoon(turn.begins - flight.simTime.value),
+      hasBegun: flight.t > turn.begins,
+      isRollIn: isSoon(turn.begins - flight.t),
       from: committedPoint(flight, turn.begins) ?? turn.segment.start,
       to: committedPoint(flight, turn.ends) ?? turn.segment.end,
     }));
@@ -319,7 +334,7 @@ function isSoon(left: number): boolean {
   return left > 0 && left <= ROLL_IN;
 }
 
-function minutesAhead(flight: Flight, plan: Planned): MinuteAhead[] {
+function minutesAhead(flight: Moment, plan: Planned): MinuteAhead[] {
   return minutesToCome(flight, plan).map(({ minute, t }) => ({
     minute,
     own: committedPoint(flight, t),
@@ -328,14 +343,14 @@ function minutesAhead(flight: Flight, plan: Planned): MinuteAhead[] {
 }
 
 /** Where the leader is expected at flight time `t` [s]. */
-function leaderPoint(flight: Flight, t: number): PathPoint | null {
-  const segments = flight.route.value?.segments ?? [];
+function leaderPoint(flight: Moment, t: number): PathPoint | null {
+  const segments = flight.route?.segments ?? [];
   const [from, to] = [segments[0]?.start.t_s ?? 0, segments.at(-1)?.end.t_s ?? 0];
   return t < from || t > to ? null : pathPointAt(segments, t, windOver(flight));
 }
 
-function slotTrack(flight: Flight): Vector {
-  const now = flight.now.value;
+function slotTrack(flight: Moment): Vector {
+  const now = flight.now;
   if (now === null) return { x: 0, y: 1 };
   const air = velocity(now.leader.tas_mps, now.slot.heading_deg);
   const wind = windOver(flight);

@@ -1,6 +1,6 @@
 /** The states of the picture: how far guidance is engaged, how old the data are, whether the separation holds. */
 
-import type { Flight } from "./types";
+import type { Moment } from "./types";
 
 /**
  * off: nobody is to be joined; designated: a path is looked for; proposed, armed: there is one, accepted
@@ -33,40 +33,40 @@ export type Separation = (typeof SEPARATIONS)[number];
 /** Data of the leader older than this are flown no more [s]. */
 export const LEADER_LOST = 10;
 
-export function guidance(flight: Flight): Guidance {
-  const sample = flight.sample.value;
+export function guidance(flight: Moment): Guidance {
+  const sample = flight.sample;
   if (sample === null || sample.engagement === "off") return "off";
   if (sample.leader_age_s > LEADER_LOST) return "data_lost";
   const { mode } = sample;
   if (mode === "capture" || mode === "follow" || mode === "escape") return mode;
-  const isMissing = flight.unavailable.value !== null || flight.unable.value !== null;
+  const isMissing = flight.unavailable !== null || flight.unable !== null;
   if (sample.engagement === "engaged") {
-    if (flight.unavailable.value !== null) return "unable";
+    if (flight.unavailable !== null) return "unable";
     return mode === "converge" ? "converge" : "unable";
   }
-  if (flight.proposal.value === null) return isMissing ? "infeasible" : "designated";
+  if (flight.proposal === null) return isMissing ? "infeasible" : "designated";
   return sample.engagement === "armed" ? "armed" : "proposed";
 }
 
 /** Whether the crew had accepted a path, and what is proposed has become another one. */
-export function hasLapsed(flight: Flight): boolean {
-  const last = flight.engagement.value;
+export function hasLapsed(flight: Moment): boolean {
+  const last = flight.engagement;
   return last?.previous === "armed" && last.engagement === "designated";
 }
 
 /** How old all that is shown is. */
-export function age(flight: Flight): Age {
-  if (flight.now.value === null) return "none";
-  if (flight.clock.value.ended) return "fresh"; // nothing moves any more, so no data grow old
-  return ageOf(flight.dataAge.value);
+export function age(flight: Moment): Age {
+  if (flight.now === null) return "none";
+  if (flight.ended) return "fresh"; // nothing moves any more, so no data grow old
+  return ageOf(flight.dataAge);
 }
 
 /** How old what is known of the leader is [s]. */
-export function leaderAge(flight: Flight): number {
-  const sample = flight.sample.value;
-  if (sample === null || flight.clock.value.ended) return 0;
-  const since = sample.leader_age_s > 0 ? flight.simTime.value - sample.t_s : 0;
-  return Math.max(flight.dataAge.value, sample.leader_age_s + since);
+export function leaderAge(flight: Moment): number {
+  const sample = flight.sample;
+  if (sample === null || flight.ended) return 0;
+  const since = sample.leader_age_s > 0 ? flight.t - sample.t_s : 0;
+  return Math.max(flight.dataAge, sample.leader_age_s + since);
 }
 
 export function ageOf(seconds: number): Age {
@@ -79,6 +79,12 @@ export function ageOf(seconds: number): Age {
 /** Plans may graze the minimum separation: this much below it is no loss yet [m]. */
 export const GRAZE = 20;
 
+/** Shown for a while: so many seconds of flight, and two of the viewer at least. */
+export function isRecent({ t, rate }: Moment, since: number | undefined, shown: number): boolean {
+  return since !== undefined && t - since < Math.max(shown, LEAST_SHOWN * rate);
+}
+const LEAST_SHOWN = 2;
+
 export interface Outlook {
   readonly state: Separation;
   /** Until the predicted loss [s]; 0 unless predicted. */
@@ -86,15 +92,15 @@ export interface Outlook {
 }
 
 /** Whether the minimum separation is kept now, and whether guidance expects it to be lost. */
-export function separation(flight: Flight): Outlook {
-  const now = flight.now.value;
-  const minSeparation = flight.started.value?.min_separation_m;
+export function separation(flight: Moment): Outlook {
+  const now = flight.now;
+  const minSeparation = flight.started?.min_separation_m;
   if (now === null || minSeparation === undefined) return { state: "kept", within: 0 };
   if (now.separation_m < minSeparation - GRAZE) return { state: "lost", within: 0 };
-  const alert = flight.alerts.value.find(
+  const alert = flight.alerts.find(
     ({ subject, level }) => subject === "separation" && level !== "advisory",
   );
   if (alert === undefined) return { state: "kept", within: 0 };
-  const within = Math.max(0, Math.round(alert.predicted_at_s - flight.simTime.value));
+  const within = Math.max(0, Math.round(alert.predicted_at_s - flight.t));
   return { state: "predicted", within };
 }

@@ -10,23 +10,11 @@ export interface TrailPoint {
 const PERIOD = 10;
 const RECENT = 600;
 const OLD_PERIOD = 60;
-const SLACK = 0.001; // samples come every 0.05 s, so 9.999 s is 10 s
 
-/** The trail with one more position, if it is time for one: the same array otherwise. */
-export function appendTrail(
-  trail: readonly TrailPoint[],
-  t: number,
-  position: { readonly x_m: number; readonly y_m: number },
-): readonly TrailPoint[] {
-  const last = trail.at(-1);
-  if (last !== undefined && t - last.t < PERIOD - SLACK) return trail;
-  const kept: TrailPoint[] = [];
-  for (const point of trail) {
-    const before = kept.at(-1);
-    const recent = t - point.t <= RECENT;
-    if (recent || before === undefined || point.t - before.t >= OLD_PERIOD - SLACK)
-      kept.push(point);
-  }
-  kept.push({ t, x: position.x_m, y: position.y_m });
-  return kept;
+/** The flight times at which a trail has points, up to `t` [s], ascending. */
+export function trailTimes(first: number, t: number): number[] {
+  const times: number[] = [];
+  for (let at = Math.ceil(first / PERIOD) * PERIOD; at <= t; at += PERIOD)
+    if (t - at <= RECENT || at % OLD_PERIOD === 0) times.push(at);
+  return times;
 }

@@ -1,4 +1,4 @@
-/** What the display knows of a flight. */
+/** What the display knows of a flight: the fold of its documents, one instant of it, and the signals of the page. */
 
 import type { Signal } from "@preact/signals";
 import type {
@@ -43,65 +43,93 @@ export interface Message {
   readonly text: string;
 }
 
-/** What the display knows. Wall-clock instants in ms. */
+/** What all documents but the samples say, up to some instant. */
+export interface Known {
+  readonly started: PairCard | null;
+  readonly route: LeaderRoute | null;
+  /** The last plan that was flown: `flownPlan` says whether it still is. */
+  readonly plan: PlanChanged | null;
+  /** The last time of the join that was said anew, until the next plan. */
+  readonly promise: PromiseChanged | null;
+  /** The path that could be flown; null when guidance is engaged, or there is none. */
+  readonly proposal: PlanProposed | null;
+  /** The path that own ship will really fly, whatever its mode. */
+  readonly forecast: ForecastChanged | null;
+  /** The plan before, and the flight time [s] at which another took its place. */
+  readonly superseded: { readonly plan: PlanChanged; readonly at: number } | null;
+  /** Set while the last answer was "no plan". */
+  readonly unavailable: PlanUnavailable | null;
+  /** The alerts that stand: of each subject and other aircraft the newest. */
+  readonly alerts: readonly Alert[];
+  /** Set when guidance is unable, until the next plan. */
+  readonly unable: Unable | null;
+  /** The last loss of separation. */
+  readonly lost: SeparationLost | null;
+  readonly mode: ModeChanged | null;
+  /** What the crew last ordered, and what became of it. */
+  readonly engagement: EngagementChanged | null;
+  /** How it went, once it is over. */
+  readonly result: LinkResult | null;
+  /** Newest first. */
+  readonly messages: readonly Message[];
+}
+
+/** What the samples say up to some instant. */
+export interface Seen {
+  /** The newest sample, as it came; of a leader that is not heard of, what is expected. */
+  readonly sample: PairSample | null;
+  /** Since when it has joined, and when the minimum was last infringed [s, flight time]. */
+  readonly joinedAt: number;
+  readonly belowAt: number;
+  readonly trail: {
+    readonly pursuer: readonly TrailPoint[];
+    readonly leader: readonly TrailPoint[];
+  };
+}
+
+/** A flight at one instant: all that its picture and numbers are made of. */
+export interface Moment extends Known, Seen {
+  /** Flight time [s]. */
+  readonly t: number;
+  /** The newest sample carried on to `t`. */
+  readonly now: PairSample | null;
+  /** Seconds of flight in a second of the viewer: what is shown for a while is shown for two of these. */
+  readonly rate: number;
+  /** Wall time since the newest sample arrived [s]; 0 of what is replayed. */
+  readonly dataAge: number;
+  /** Whether it is over, so that nothing moves any more. */
+  readonly ended: boolean;
+  /** Whether the crew has accepted a path and the service has not answered yet. */
+  readonly isSent: boolean;
+}
+
+/**
+ * Whose time is shown: `live`, the newest there is; `replay`, any other, `rate` seconds of flight in a
+ * second, 0 while it stands.
+ */
+export type Source = { readonly kind: "live" } | { readonly kind: "replay"; readonly rate: number };
+
+/** The signals of a flight on the page. */
 export interface Flight {
   readonly id: Signal<string | null>;
-  readonly started: Signal<PairCard | null>;
-  readonly route: Signal<LeaderRoute | null>;
-  /** The last plan that was flown: `flownPlan` says whether it still is. */
-  readonly plan: Signal<PlanChanged | null>;
-  /** The last time of the join that was said anew, until the next plan. */
-  readonly promise: Signal<PromiseChanged | null>;
-  /** The path that could be flown; null when guidance is engaged, or there is none. */
-  readonly proposal: Signal<PlanProposed | null>;
-  /** The path that own ship will really fly, whatever its mode. */
-  readonly forecast: Signal<ForecastChanged | null>;
-  /** The plan before, shown until `until` [ms]. */
-  readonly superseded: Signal<{ plan: PlanChanged; until: number } | null>;
-  /** Set while the last answer was "no plan". */
-  readonly unavailable: Signal<PlanUnavailable | null>;
-  /** The alerts that stand: of each subject and other aircraft the newest. */
-  readonly alerts: Signal<readonly Alert[]>;
-  /** Set when guidance is unable, until the next plan. */
-  readonly unable: Signal<Unable | null>;
-  /** The last loss of separation. */
-  readonly lost: Signal<SeparationLost | null>;
-  readonly mode: Signal<ModeChanged | null>;
-  /** When the mode last changed [ms]: the new mode is boxed for 10 s. */
-  readonly modeSince: Signal<number>;
-  /** When the last plan was made, separation was last lost, and it joined [ms]. */
-  readonly planSince: Signal<number>;
-  readonly lostSince: Signal<number>;
-  readonly joinedSince: Signal<number>;
-  /** When the separation was last seen below the minimum [ms]. */
-  readonly belowSince: Signal<number>;
-  /** What the crew last ordered, and what became of it. */
-  readonly engagement: Signal<EngagementChanged | null>;
-  /** Whether the crew has accepted a path and the service has not answered yet. */
-  readonly isSent: Signal<boolean>;
-  /** The newest sample that heard of the leader: it is expected to fly on from there. */
-  readonly heard: Signal<PairSample | null>;
-  /** The newest sample, as it came; of a leader that is not heard of, what is expected. */
-  readonly sample: Signal<PairSample | null>;
-  /** The newest sample carried on to this animation frame, at most 2 s of wall time ahead. */
-  readonly now: Signal<PairSample | null>;
+  /** The instant whose picture is drawn. */
+  readonly moment: Signal<Moment>;
   /** The same for numbers to be read: it changes five times a second. */
-  readonly reading: Signal<PairSample | null>;
-  /** The time of the view: the wall clock at this animation frame [ms]. */
-  readonly wall: Signal<number>;
-  /** Flight time at this animation frame [s]. */
-  readonly simTime: Signal<number>;
+  readonly read: Signal<Moment>;
   /** Flight time since the picture was drawn [s]: what moves is carried on by it until the next one. */
   readonly since: Signal<number>;
-  /** Wall time since the newest sample arrived [s]; while paused, since the newest tick. */
-  readonly dataAge: Signal<number>;
-  readonly trail: {
-    readonly pursuer: Signal<readonly TrailPoint[]>;
-    readonly leader: Signal<readonly TrailPoint[]>;
-  };
-  readonly ended: Signal<LinkResult | null>;
-  readonly clock: Signal<{ rate: number; paused: boolean; ended: boolean }>;
+  readonly source: Signal<Source>;
+  /** First and last flight time that can be shown [s]; null before the first sample. */
+  readonly span: Signal<{ readonly first: number; readonly last: number } | null>;
+  /** The part of the flight that is shown again and again; null for none [s, flight time]. */
+  readonly loop: Signal<{ readonly from: number; readonly to: number } | null>;
+  /** What the server says of its clock; of a recording, that it has ended. */
+  readonly clock: Signal<{
+    readonly rate: number;
+    readonly paused: boolean;
+    readonly ended: boolean;
+  }>;
   readonly connection: Signal<Connection>;
-  /** Newest first. */
-  readonly messages: Signal<readonly Message[]>;
+  /** Whether the crew has accepted a path and the service has not answered yet. */
+  readonly isSent: Signal<boolean>;
 }

@@ -39,7 +39,7 @@ function answered(card: PlanCard = plan) {
 
 test("a situation with its plan is drawn as a proposal, with its ghosts", () => {
   const map = answered();
-  expect(guidance(map.flight)).toBe("proposed");
+  expect(guidance(map.flight.moment.value)).toBe("proposed");
   const root = mount(PlanMap, { map });
   for (const name of [
     "proposed",
@@ -71,11 +71,11 @@ test("beside the map it is said of a plan, and of nothing else, that a flight ta
 test("without a plan the slot is crossed and the map says why; without an answer it says nothing", () => {
   const map = answered();
   map.answered.value = { situation: map.situation.value, answer: noPlan(0).answer };
-  expect(guidance(map.flight)).toBe("infeasible");
+  expect(guidance(map.flight.moment.value)).toBe("infeasible");
   const root = mount(PlanMap, { map });
   expect(root.querySelector(".nd-message")?.textContent).toBe("NO PLAN: SPEED");
   map.answered.value = null;
-  expect(guidance(map.flight)).toBe("designated");
+  expect(guidance(map.flight.moment.value)).toBe("designated");
   expect(mount(PlanMap, { map }).querySelector(".nd-message")).toBeNull();
 });
 
@@ -150,7 +150,7 @@ test("all is in sight when a situation is put on the map", () => {
 test("the situation of a flight is where the two are, with what the leader has yet to turn", () => {
   const flight = flightAt("fig_6b", 200);
   const found = situationOf(flight);
-  const now = flight.now.value;
+  const now = flight.moment.value.now;
   expect(found?.pursuer.x_m).toBe(Math.round(now?.pursuer.x_m ?? 0));
   const [straight, turn] = found?.leader.intent ?? [];
   const whole = documentsOf("fig_6b").route.segments[0]?.duration_s ?? 0;

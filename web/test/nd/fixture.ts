@@ -15,6 +15,7 @@ import type {
   PathSegment,
   PlanChanged,
 } from "../../src/wire";
+import { amend } from "../samples";
 import crossing from "./flights/crossing.json" with { type: "json" };
 import fig6a from "./flights/fig_6a.json" with { type: "json" };
 import fig6b from "./flights/fig_6b.json" with { type: "json" };
@@ -71,39 +72,27 @@ export function flightAt(name: FlightName, t: number, mode: Mode = "converge"): 
   const documents = documentsOf(name);
   const flight = emptyFlight();
   flight.id.value = name;
-  flight.started.value = documents.started;
-  flight.route.value = documents.route;
-  flight.plan.value = documents.plan;
-  flight.planSince.value = 0;
+  const { started, route, plan } = documents;
   const ident = documents.started.pursuer.ident;
-  flight.mode.value = {
-    kind: "mode_changed",
-    t_s: 0,
-    ident,
-    mode,
-    previous: "heading",
-    message: "",
-  };
+  const entered = { kind: "mode_changed", t_s: 0, ident, mode, previous: "heading" } as const;
+  amend(flight, { started, route, plan, mode: { ...entered, message: "" } });
   flight.connection.value = "live";
   setTime(flight, t, mode);
   return flight;
 }
 
 export function setTime(flight: Flight, t: number, mode: Mode): void {
-  const [started, route, plan] = [flight.started.value, flight.route.value, flight.plan.value];
+  const { started, route, plan } = flight.moment.value;
   if (started === null || route === null || plan === null) throw new Error("An empty flight.");
   const sample = sampleAt({ started, route, plan }, t, mode);
-  flight.wall.value = 1000 * t;
-  flight.simTime.value = t;
-  flight.sample.value = sample;
-  flight.now.value = sample;
-  flight.reading.value = sample;
   const wind = windVector(started.wind);
   const times = Array.from({ length: 61 }, (_, i) => t - 600 + 10 * i).filter((each) => each >= 0);
-  flight.trail.leader.value = times.map((each) => {
+  const leader = times.map((each) => {
     const point = pathPointAt(route.segments, each, wind);
     return { t: each, x: point?.x_m ?? 0, y: point?.y_m ?? 0 };
   });
+  const joinedAt = sample.joined ? plan.plan.time_to_converge_s : Number.POSITIVE_INFINITY;
+  amend(flight, { t, sample, now: sample, joinedAt, trail: { pursuer: [], leader } });
 }
 
 function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): PairSample {

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import { ActivePath } from "../../src/nd/plan";
 import { toMap } from "../../src/nd/view";
+import { amend } from "../samples";
 import { mount, screenOf } from "./draw";
 import { flightAt, forecastOf } from "./fixture";
 
@@ -16,14 +17,14 @@ function points(data: string): [number, number][] {
 
 function picture(t: number, mode: "converge" | "follow" | "escape" = "converge") {
   const flight = flightAt("fig_6b", t, mode);
-  flight.forecast.value = forecastOf("fig_6b");
+  amend(flight, { forecast: forecastOf("fig_6b") });
   const { shown, view } = screenOf(flight, "ARC", 10);
   return { flight, view, root: mount(ActivePath, { shown, view }) };
 }
 
 test("the layer draws exactly the points of the forecast, solid, from own ship on", () => {
   const { flight, view, root } = picture(0);
-  const forecast = flight.forecast.value;
+  const forecast = flight.moment.value.forecast;
   if (forecast === null) throw new Error("A flight without a forecast.");
   const [current, coming] = strokes(root, "3").map(points);
   const expected = forecast.times_s.map((_, k) => {
@@ -54,13 +55,13 @@ test("the plan's ideal path is a thin line under it, and goes with the plan", ()
 
 test("what is flown is gone, and so is what lies beyond the join", async () => {
   const { flight, root } = picture(400);
-  const forecast = flight.forecast.value;
+  const forecast = flight.moment.value.forecast;
   if (forecast === null) throw new Error("A flight without a forecast.");
   const left = forecast.times_s.filter((t) => t > 400).length;
   expect(points(strokes(root, "3")[1] ?? "").length).toBe(left);
-  const sample = flight.sample.value;
+  const sample = flight.moment.value.sample;
   if (sample === null) throw new Error("An empty flight.");
-  flight.sample.value = { ...sample, time_to_go_s: 100 };
+  amend(flight, { sample: { ...sample, time_to_go_s: 100 } });
   await new Promise((done) => setTimeout(done, 0));
   const shorter = points(strokes(root, "3")[1] ?? "");
   expect(shorter.length).toBeLessThan(left);

@@ -4,7 +4,7 @@ import type { PairSample } from "../../src/store/pair";
 import type { Guidance } from "../../src/store/states";
 import type { Flight } from "../../src/store/types";
 import type { PlanProposed } from "../../src/wire";
-import { noPlan, unable } from "../samples";
+import { amend, noPlan, unable } from "../samples";
 import { documentsOf, flightAt } from "./fixture";
 
 /** When each is shown [s, flight time]. */
@@ -33,11 +33,11 @@ export function flightIn(state: Guidance, t = state === "follow" ? 900 : T): Fli
     state === "converge" || state === "capture" || state === "follow" || state === "escape";
   const flight = flightAt("fig_6b", t, mode ? state : "heading");
   const change = (sample: Partial<PairSample>) => {
-    if (flight.sample.value === null) throw new Error("An empty flight.");
-    const changed = { ...flight.sample.value, ...sample };
-    for (const each of [flight.sample, flight.now, flight.reading]) each.value = changed;
+    if (flight.moment.value.sample === null) throw new Error("An empty flight.");
+    const changed = { ...flight.moment.value.sample, ...sample };
+    amend(flight, { sample: changed, now: changed });
   };
-  if (!mode && state !== "unable") flight.plan.value = null;
+  if (!mode && state !== "unable") amend(flight, { plan: null });
   switch (state) {
     case "off":
       change({ engagement: "off", time_to_go_s: 0 });
@@ -48,18 +48,18 @@ export function flightIn(state: Guidance, t = state === "follow" ? 900 : T): Fli
     case "proposed":
     case "armed":
       change({ engagement: state === "armed" ? "armed" : "designated", time_to_go_s: 0 });
-      flight.proposal.value = proposal();
+      amend(flight, { proposal: proposal() });
       break;
     case "infeasible":
       change({ engagement: "designated", time_to_go_s: 0 });
-      flight.unavailable.value = noPlan(t);
+      amend(flight, { unavailable: noPlan(t) });
       break;
     case "unable":
-      flight.unavailable.value = noPlan(t);
+      amend(flight, { unavailable: noPlan(t) });
       break;
     case "data_lost":
       change({ engagement: "designated", leader_age_s: 15, time_to_go_s: 0 });
-      flight.unable.value = { ...unable(t), reason: "data" };
+      amend(flight, { unable: { ...unable(t), reason: "data" } });
       break;
   }
   return flight;

@@ -5,7 +5,7 @@ import { expect, test } from "vitest";
 import type { PairSample } from "../../src/store/pair";
 import { createShown } from "../../src/store/picture";
 import type { Flight } from "../../src/store/types";
-import { noPlan, unable } from "../samples";
+import { amend, noPlan, unable } from "../samples";
 import { mountDisplay } from "./draw";
 import { flightAt } from "./fixture";
 import { flightIn } from "./in-state";
@@ -66,9 +66,9 @@ function drawnOn(flight: Flight): Set<Name> {
 }
 
 function change(flight: Flight, sample: Partial<PairSample>): void {
-  if (flight.sample.value === null) throw new Error("An empty flight.");
-  const changed = { ...flight.sample.value, ...sample };
-  for (const each of [flight.sample, flight.now, flight.reading]) each.value = changed;
+  if (flight.moment.value.sample === null) throw new Error("An empty flight.");
+  const changed = { ...flight.moment.value.sample, ...sample };
+  amend(flight, { sample: changed, now: changed });
 }
 
 function converging(name: "fig_6b" | "fig_6b_wind" = "fig_6b"): Flight {
@@ -107,7 +107,7 @@ const CASES: readonly Case[] = [
     input: "own ship's state",
     valid: () => converging("fig_6b_wind"),
     spoil: (flight) => {
-      for (const each of [flight.sample, flight.now, flight.reading]) each.value = null;
+      amend(flight, { sample: null, now: null });
     },
     gone: [
       ...GUIDANCE,
@@ -133,7 +133,7 @@ const CASES: readonly Case[] = [
     input: "own ship's speed, too slow for a trend",
     valid: () => converging(),
     spoil: (flight) => {
-      const pursuer = flight.now.value?.pursuer;
+      const pursuer = flight.moment.value.now?.pursuer;
       if (pursuer !== undefined) change(flight, { pursuer: { ...pursuer, ground_speed_mps: 40 } });
     },
     gone: ["trend"],
@@ -142,9 +142,9 @@ const CASES: readonly Case[] = [
     input: "wind",
     valid: () => converging("fig_6b_wind"),
     spoil: (flight) => {
-      const started = flight.started.value;
+      const started = flight.moment.value.started;
       if (started !== null)
-        flight.started.value = { ...started, wind: { from_deg: 0, speed_mps: 0 } };
+        amend(flight, { started: { ...started, wind: { from_deg: 0, speed_mps: 0 } } });
     },
     gone: ["wind's direction", "wind's arrow"],
   },
@@ -164,8 +164,8 @@ const CASES: readonly Case[] = [
     input: "the leader's intent",
     valid: () => converging(),
     spoil: (flight) => {
-      const route = flight.route.value;
-      if (route !== null) flight.route.value = { ...route, intent_known: false };
+      const route = flight.moment.value.route;
+      if (route !== null) amend(flight, { route: { ...route, intent_known: false } });
     },
     gone: ["declared route"],
   },
@@ -173,8 +173,8 @@ const CASES: readonly Case[] = [
     input: "the plan",
     valid: () => converging(),
     spoil: (flight) => {
-      flight.unavailable.value = noPlan(120);
-      flight.unable.value = unable(120);
+      amend(flight, { unavailable: noPlan(120) });
+      amend(flight, { unable: unable(120) });
       change(flight, { mode: "heading" });
     },
     gone: ["time to go", "next point", "path", ...ALONG_A_PATH],
@@ -183,7 +183,7 @@ const CASES: readonly Case[] = [
     input: "the proposal",
     valid: () => flightIn("proposed"),
     spoil: (flight) => {
-      flight.proposal.value = null;
+      amend(flight, { proposal: null });
     },
     gone: ["time to go", "next point", "proposed path", "other paths", ...ALONG_A_PATH],
   },
@@ -191,7 +191,7 @@ const CASES: readonly Case[] = [
     input: "new data for seven seconds, once it follows",
     valid: () => flightIn("follow"),
     spoil: (flight) => {
-      flight.dataAge.value = 7;
+      amend(flight, { dataAge: 7 });
     },
     gone: [
       "early or late",

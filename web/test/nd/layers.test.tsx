@@ -1,6 +1,7 @@
 import { describe, expect, test } from "vitest";
 import { MarginCircle } from "../../src/nd/margin";
 import { GLASS_LAYERS, GROUND_LAYERS, MAP_LAYERS } from "../../src/nd/nd";
+import { amend } from "../samples";
 import { drawLayer, screenOf } from "./draw";
 import { flightAt } from "./fixture";
 
@@ -23,7 +24,8 @@ describe.each(CASES)("$name", ({ name, flight, mode, range }) => {
 /** Where the leader's position is uncertain by so much [m]. */
 function uncertain(margin_m: number) {
   const flight = flightAt("crossing", 60);
-  if (flight.now.value !== null) flight.now.value = { ...flight.now.value, margin_m };
+  if (flight.moment.value.now !== null)
+    amend(flight, { now: { ...flight.moment.value.now, margin_m } });
   return drawLayer(MarginCircle, screenOf(flight, "ROSE", 40));
 }
 

@@ -5,7 +5,7 @@ import { emptyFlight } from "../../src/store/flight";
 import type { PairSample } from "../../src/store/pair";
 import { createShown } from "../../src/store/picture";
 import type { Flight } from "../../src/store/types";
-import { alert, separationLost, unable } from "../samples";
+import { alert, amend, separationLost, unable } from "../samples";
 import { mountDisplay } from "./draw";
 import { documentsOf, flightAt, setTime } from "./fixture";
 
@@ -31,11 +31,9 @@ function words(root: Element): string {
 }
 
 function change(flight: Flight, sample: Partial<PairSample>): void {
-  if (flight.sample.value === null) throw new Error("An empty flight.");
-  const changed = { ...flight.sample.value, ...sample };
-  flight.sample.value = changed;
-  flight.now.value = changed;
-  flight.reading.value = changed;
+  if (flight.moment.value.sample === null) throw new Error("An empty flight.");
+  const changed = { ...flight.moment.value.sample, ...sample };
+  amend(flight, { sample: changed, now: changed });
 }
 
 test("before any data: a flag and no map, no numbers, no own ship symbol", () => {
@@ -54,9 +52,9 @@ test("the first sample brings the map without a new display", async () => {
   const flight = emptyFlight();
   const root = show(flight);
   const { started, route, plan } = documentsOf("fig_6b");
-  flight.started.value = started;
-  flight.route.value = route;
-  flight.plan.value = plan;
+  amend(flight, { started: started });
+  amend(flight, { route: route });
+  amend(flight, { plan: plan });
   setTime(flight, 10, "converge");
   await drawn();
   for (const there of ["map", "leader", "slot", "spacing", "track", "label"])
@@ -79,7 +77,7 @@ test("a frame moves attributes and builds nothing", async () => {
 
 test("between two pictures the glass is carried on, and nothing in it changes", () => {
   const flight = flightAt("crossing", 60);
-  const now = flight.now.value;
+  const now = flight.moment.value.now;
   if (now === null) throw new Error("An empty flight.");
   change(flight, { pursuer: { ...now.pursuer, turn_rate_degps: 1.2 } });
   let root = document.createElement("div") as Element;
@@ -109,7 +107,7 @@ test.each([
   [30, { ring: null, flag: "MAP NOT AVAIL", slot: false, leader: false }],
 ])("data %i s old", (age, expected) => {
   const flight = flightAt("fig_6b", 600);
-  flight.dataAge.value = age;
+  amend(flight, { dataAge: age });
   const root = show(flight, "ARC", 40);
   const ring =
     root.querySelector(".nd-leader circle.nd-stroke")?.getAttribute("stroke-dasharray") ?? null;
@@ -122,14 +120,15 @@ test.each([
 
 test("a flight that has ended does not grow old", () => {
   const flight = flightAt("fig_6b", 900, "follow");
-  flight.clock.value = { rate: 1, paused: false, ended: true };
-  flight.dataAge.value = 100;
+  amend(flight, { ended: true });
+  amend(flight, { dataAge: 100 });
   expect(has(show(flight, "ARC", 20), "leader")).toBe(true);
 });
 
 test("a new mode is boxed for ten seconds", async () => {
   const flight = flightAt("fig_6b", 10);
-  flight.modeSince.value = 10_000;
+  const { mode } = flight.moment.value;
+  amend(flight, { mode: mode === null ? null : { ...mode, t_s: 10 } });
   const root = show(flight);
   expect(has(root, "box")).toBe(true);
   setTime(flight, 19.9, "converge");
@@ -189,7 +188,7 @@ test("a lost separation is a red solid circle and a warning", () => {
 
 test("a loss that is coming is amber and says when", () => {
   const flight = flightAt("fig_6b", 300, "heading");
-  flight.alerts.value = [alert(299, { subject: "separation", predicted_at_s: 342 })];
+  amend(flight, { alerts: [alert(299, { subject: "separation", predicted_at_s: 342 })] });
   const root = show(flight, "ROSE", 80);
   expect(root.querySelector(".nd-circle .nd-stroke")?.getAttribute("stroke")).toBe(
     "var(--caution)",
@@ -199,14 +198,16 @@ test("a loss that is coming is amber and says when", () => {
 
 test("an alert is in the message line with its level's colour, before lesser news", () => {
   const flight = flightAt("fig_6b", 300);
-  flight.alerts.value = [
-    alert(290, { level: "advisory", subject: "speed" }),
-    alert(295, { predicted_at_s: 340 }),
-  ];
+  amend(flight, {
+    alerts: [
+      alert(290, { level: "advisory", subject: "speed" }),
+      alert(295, { predicted_at_s: 340 }),
+    ],
+  });
   const line = show(flight, "ARC", 40).querySelector(".nd-message");
   expect(line?.querySelector("text")?.textContent).toBe("SEP IN 40 S");
   expect(line?.querySelector("text")?.getAttribute("fill")).toBe("var(--caution)");
-  flight.alerts.value = flight.alerts.value.slice(0, 1);
+  amend(flight, { alerts: flight.moment.value.alerts.slice(0, 1) });
   const lesser = show(flight, "ARC", 40).querySelector(".nd-message text");
   expect(lesser?.textContent).toBe("LDR SPEED");
   expect(lesser?.getAttribute("fill")).toBe("var(--label)");
@@ -214,20 +215,18 @@ test("an alert is in the message line with its level's colour, before lesser new
 
 test("a loss of separation that was just given is a warning", () => {
   const flight = flightAt("fig_6b", 300);
-  flight.lost.value = separationLost(300);
-  flight.lostSince.value = 300_000;
+  amend(flight, { lost: separationLost(300) });
   const text = show(flight, "ARC", 40).querySelector(".nd-message text");
   expect(text?.textContent).toBe("SEPARATION");
   expect(text?.getAttribute("fill")).toBe("var(--alert)");
-  // at ×60 three seconds are three minutes of flight: the two are far apart by then
-  flight.lostSince.value = 296_900;
+  amend(flight, { t: 303.1 });
   const later = show(flight, "ARC", 40).querySelector(".nd-message text");
   expect(later?.textContent ?? "").not.toBe("SEPARATION");
 });
 
 test("unable says why; escape is a mode of its own", () => {
   const flight = flightAt("fig_6b", 300, "escape");
-  flight.unable.value = unable(299);
+  amend(flight, { unable: unable(299) });
   const root = show(flight, "ARC", 80);
   expect(words(root)).toContain("RG UNABLE: PATH");
   expect(words(root)).toContain("RG ESC");
@@ -237,10 +236,10 @@ test("unable says why; escape is a mode of its own", () => {
 
 test("a plan that is no news is drawn and not announced", () => {
   const flight = flightAt("fig_6b", 0.5);
-  const plan = flight.plan.value;
+  const plan = flight.moment.value.plan;
   if (plan === null) throw new Error("A flight without a plan.");
   expect(words(show(flight, "ARC", 80))).toContain("CONV ACTIVE");
-  flight.plan.value = { ...plan, reason: "deviation", announced: false };
+  amend(flight, { plan: { ...plan, reason: "deviation", announced: false } });
   const root = show(flight, "ARC", 80);
   expect(words(root)).not.toContain("REPLAN");
   expect(has(root, "capture")).toBe(true);
@@ -248,12 +247,14 @@ test("a plan that is no news is drawn and not announced", () => {
 
 test("no plan: the slot is crossed, the reason is in the message line", () => {
   const flight = flightAt("fig_6b", 300, "heading");
-  flight.unavailable.value = {
-    kind: "plan_unavailable",
-    t_s: 300,
-    ident: "RG456",
-    answer: { status: "no_plan", reason: "slot_unreachable", message: "", lower_bound_s: 0 },
-  };
+  amend(flight, {
+    unavailable: {
+      kind: "plan_unavailable",
+      t_s: 300,
+      ident: "RG456",
+      answer: { status: "no_plan", reason: "slot_unreachable", message: "", lower_bound_s: 0 },
+    },
+  });
   const root = show(flight, "ARC", 80);
   expect(words(root)).toContain("RG UNABLE: SPEED");
   expect(root.querySelector(".nd-slot .nd-stroke")?.getAttribute("stroke")).toBe("var(--caution)");
@@ -277,11 +278,11 @@ test("the next turn is named, and announced before the roll-in", () => {
 
 test("the old path is dotted while the new one is taken in", async () => {
   const flight = flightAt("crossing", 5);
-  flight.superseded.value = { plan: documentsOf("fig_6b").plan, until: 103_000 };
+  amend(flight, { superseded: { plan: documentsOf("fig_6b").plan, at: 3 } });
   const root = show(flight);
   const old = root.querySelector(".nd-fading .nd-stroke[d^='M']");
   expect(old?.getAttribute("stroke-dasharray")).toBe("2 11");
-  flight.superseded.value = null;
+  amend(flight, { superseded: null });
   await drawn();
   expect(has(root, "fading")).toBe(false);
 });

@@ -4,6 +4,7 @@ import { signal } from "@preact/signals";
 import { describe, expect, test } from "vitest";
 import { createShown } from "../../src/store/picture";
 import { GUIDANCES, type Guidance, guidance } from "../../src/store/states";
+import { amend } from "../samples";
 import { mountDisplay } from "./draw";
 import { documentsOf } from "./fixture";
 import { flightIn, proposal, T } from "./in-state";
@@ -149,7 +150,7 @@ describe.each(GUIDANCES.map((state) => [state] as const))("%s", (state) => {
   });
 
   test("is the state of the flight", () => {
-    expect(guidance(flight)).toBe(state);
+    expect(guidance(flight.moment.value)).toBe(state);
   });
 
   test("is shown as the table says", () => {
@@ -167,7 +168,7 @@ describe.each(GUIDANCES.map((state) => [state] as const))("%s", (state) => {
   });
 
   test("the heading is flown by guidance or selected by the crew, and looks so", () => {
-    const isEngaged = flight.sample.value?.engagement === "engaged";
+    const isEngaged = flight.moment.value.sample?.engagement === "engaged";
     if (root.querySelector(".nd-bug") !== null) expect(isEngaged).toBe(false);
     if (!isEngaged) expect(root.querySelector(".nd-bug")).not.toBeNull();
   });
@@ -200,8 +201,8 @@ test("a proposal says when it would join, and how close they would come", () => 
 test("the keep-out circle of a leader that is not heard of grows", () => {
   const radius = (age: number) => {
     const flight = flightIn("data_lost");
-    if (flight.sample.value !== null)
-      flight.sample.value = { ...flight.sample.value, leader_age_s: age };
+    if (flight.moment.value.sample !== null)
+      amend(flight, { sample: { ...flight.moment.value.sample, leader_age_s: age } });
     return createShown(flight).picture.value.keepOut;
   };
   const least = documentsOf("fig_6b").started.min_separation_m;

@@ -9,7 +9,7 @@ import {
 } from "../../src/store/committed";
 import { forecastPoint } from "../../src/store/forecast";
 import { documentsOf, flightAt, forecastOf } from "../nd/fixture";
-import { planChanged, point, rightTurn, straight, unable } from "../samples";
+import { amend, planChanged, point, rightTurn, straight, unable } from "../samples";
 
 test("the next turn is the one that begins next; a correction is none", () => {
   const lead = straight(point(0, 0, 0, 0), 60, 100);
@@ -27,37 +27,40 @@ test("the next turn is the one that begins next; a correction is none", () => {
 test("a plan that was given up is flown no more", () => {
   const plan = documentsOf("fig_6b").plan;
   for (const mode of ["converge", "capture"] as const)
-    expect(flownPlan(flightAt("fig_6b", 300, mode))).toBe(plan);
+    expect(flownPlan(flightAt("fig_6b", 300, mode).moment.value)).toBe(plan);
   for (const mode of ["heading", "escape", "follow"] as const)
-    expect(flownPlan(flightAt("fig_6b", 300, mode))).toBeNull();
+    expect(flownPlan(flightAt("fig_6b", 300, mode).moment.value)).toBeNull();
   const flight = flightAt("fig_6b", 300);
-  flight.unable.value = unable(300);
-  expect(flownPlan(flight)).toBeNull();
+  amend(flight, { unable: unable(300) });
+  expect(flownPlan(flight.moment.value)).toBeNull();
 });
 
 test("where it joins, and how close it comes, are the forecast's", () => {
   const flight = flightAt("fig_6b", 300);
   const forecast = forecastOf("fig_6b");
-  const ideal = committedPoint(flight, 600);
-  flight.forecast.value = forecast;
-  const flown = committedPoint(flight, 600);
+  const ideal = committedPoint(flight.moment.value, 600);
+  amend(flight, { forecast: forecast });
+  const flown = committedPoint(flight.moment.value, 600);
   expect(flown).toEqual(forecastPoint(forecast, 600));
   expect(
     Math.hypot((flown?.x_m ?? 0) - (ideal?.x_m ?? 0), (flown?.y_m ?? 0) - (ideal?.y_m ?? 0)),
   ).toBeGreaterThan(100);
-  expect(closestApproach(flight)?.least).toBe(forecast.least_separation_m);
-  const left = timeToJoin(flight) ?? Number.NaN;
-  expect(joinPoint(flight)?.t_s).toBeCloseTo(300 + left, 0);
+  expect(closestApproach(flight.moment.value)?.least).toBe(forecast.least_separation_m);
+  const left = timeToJoin(flight.moment.value) ?? Number.NaN;
+  expect(joinPoint(flight.moment.value)?.t_s).toBeCloseTo(300 + left, 0);
 });
 
 test("a forecast that ends too early says nothing of the join: the plan does", () => {
   const flight = flightAt("fig_6b", 300);
   const whole = forecastOf("fig_6b");
   const few = { times_s: [300, 330], x_m: [0, 1], y_m: [0, 1], heading_deg: [90, 90] };
-  flight.forecast.value = { ...whole, ...few };
+  amend(flight, { forecast: { ...whole, ...few } });
   const plan = documentsOf("fig_6b").plan;
-  expect(closestApproach(flight)?.least).toBe(plan.plan.separation.least_m);
-  expect(joinPoint(flight)?.x_m).toBeCloseTo(plan.plan.segments.at(-1)?.end.x_m ?? 0, -1);
+  expect(closestApproach(flight.moment.value)?.least).toBe(plan.plan.separation.least_m);
+  expect(joinPoint(flight.moment.value)?.x_m).toBeCloseTo(
+    plan.plan.segments.at(-1)?.end.x_m ?? 0,
+    -1,
+  );
 });
 
 test("a column point between two is between them, its heading the shorter way round", () => {
