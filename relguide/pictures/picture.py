@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, get_args
 
 from relguide.contract.recorder import read_lines, written
-from relguide.flying.documents import Document
+from relguide.flying.documents import Document, Sample
 from relguide.pictures.bundles import bundle
 from relguide.planning.extras import need
 from relguide.planning.inputs import number
@@ -91,7 +91,7 @@ def picture(
 
 
 def _until(lines: Iterator[tuple[Document, bytes]], t: Second) -> bytes:
-    """What is written of a flight up to a time, and one line more, which says that it goes on."""
+    """What is written of a flight up to a time, and to the next sample, towards which it moves."""
     kept: list[bytes] = []
     first = last = None
     for document, line in lines:
@@ -99,7 +99,7 @@ def _until(lines: Iterator[tuple[Document, bytes]], t: Second) -> bytes:
         last = document.t
         if t >= first:
             kept.append(line)
-            if last > t and line:
+            if last > t and line and isinstance(document, Sample):
                 break
     if first is None or last is None:
         raise ValueError("There is nothing to draw: the flight has no documents.")

@@ -41,7 +41,7 @@ export function pictureOfShown(
   { mode, range, palette }: PictureView,
   caption: string,
 ): string {
-  const { t, started, pose, places, plan, superseded } = shown.picture.value;
+  const { t, started, pose, places, plan } = shown.picture.value;
   const miles =
     range !== "auto"
       ? range
@@ -59,7 +59,7 @@ export function pictureOfShown(
       description={shown.words.value}
     />,
   );
-  const age = plan === null || superseded === null ? 0 : t - plan.t_s;
+  const age = plan === null ? 0 : t - plan.t_s;
   const fading = Math.round(100 * (1 - 0.85 * Math.min(1, age / FADE))) / 100;
   // a string of one piece: some engines hand out strings that are still to be put together
   return [inlined(drawn, COLOURS[palette], fading)].join("");

@@ -1,13 +1,15 @@
 /** A flight at one instant: what was known of it then, from its documents alone. */
 
-import { createFlightStore } from "../store/flight";
+import { signal } from "@preact/signals";
+import { emptyFlight } from "../store/flight";
+import { createHistory, type History, momentAt } from "../store/history";
 import { createShown, type Shown } from "../store/picture";
 import type { Document } from "../wire";
 
 /**
  * What is shown of a flight at flight time `t` [s].
  *
- * @param documents - in order of time; what comes after `t` is not looked at.
+ * @param documents - in order of time.
  * @throws if `t` is outside the flight, in a sentence.
  */
 export function shownAt(documents: readonly Document[], t: number): Shown {
@@ -18,15 +20,15 @@ export function shownAt(documents: readonly Document[], t: number): Shown {
     throw new Error(
       `t = ${t} s is outside the flight, which goes from ${first.t_s} s to ${last.t_s} s.`,
     );
-  const known = documents.filter((document) => document.t_s <= t);
-  const ended = known.at(-1)?.kind === "flight_ended";
-  const store = createFlightStore();
-  store.link("open");
-  store.receive(
-    { kind: "tick", flight_id: "", t_s: t, rate: 1, paused: true, ended, documents: known },
-    1000 * t,
-  );
-  return createShown(store.flight);
+  const history = createHistory();
+  history.merge(documents);
+  return shownOf(history, t);
+}
+
+/** The same of a flight whose documents are known already. */
+export function shownOf(history: History, t: number): Shown {
+  const moment = signal(momentAt(history, t));
+  return createShown({ ...emptyFlight(), moment, read: moment });
 }
 
 /** The documents of a text: a recording, a line each, or a JSON array. */
