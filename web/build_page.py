@@ -21,7 +21,7 @@ NO_ANSWER = 300.0
 INPUTS = ("package.json", "package-lock.json", ".npmrc", "index.html", "vite.config.ts",
           "tsconfig.json", "unpack_font.py", "src", "public")  # fmt: skip
 """What the page is made of, within `web/`."""
-BUILDS = ("production", "picture")
+BUILDS = ("production", "picture", "element")
 """Vite's modes: the page first, then what lies beside it in `dist/embed`."""
 FONT = "node_modules/@fontsource/b612/files/b612-latin-400-normal.woff"
 """The instrument's type, as pictures are lettered with it without a browser."""

@@ -10,7 +10,7 @@ const common = {
 } satisfies UserConfig;
 
 /** A bundle in one file, beside the page that is already in `dist`. */
-function bundle(entry: string, fileName: string, format: "es" | "iife", name: string): UserConfig {
+function bundle(entry: string, fileName: string): UserConfig {
   return {
     ...common,
     // a library's dependencies ask in which of their builds they run
@@ -21,7 +21,7 @@ function bundle(entry: string, fileName: string, format: "es" | "iife", name: st
       outDir: "dist/embed",
       emptyOutDir: false,
       minify: true,
-      lib: { entry, name, formats: [format], fileName: () => fileName },
+      lib: { entry, name: "relguide", formats: ["iife"], fileName: () => fileName },
     },
   };
 }
@@ -43,7 +43,14 @@ const page: UserConfig = {
   },
 };
 
-/** `vite build` makes the page; `--mode picture` what draws without a browser. */
-export default defineConfig(({ mode }) =>
-  mode === "picture" ? bundle("src/picture/picture.tsx", "picture.js", "iife", "relguide") : page,
-);
+/** What lies beside the page, by mode. */
+const bundles: Readonly<Record<string, UserConfig>> = {
+  picture: bundle("src/picture/picture.tsx", "picture.js"),
+  element: bundle("src/embed/relguide-nd.tsx", "relguide-nd.js"),
+};
+
+/**
+ * `vite build` makes the page; `--mode picture` what draws without a browser, `--mode element` the
+ * element `<relguide-nd>`.
+ */
+export default defineConfig(({ mode }) => bundles[mode] ?? page);

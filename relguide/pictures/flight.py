@@ -2,12 +2,15 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from relguide.flying.documents import Document, FlightEnded, FlightStarted
 from relguide.pictures.picture import Picture, picture
-from relguide.planning.extras import MissingExtra
+from relguide.planning.extras import MissingExtra, need
 from relguide.units import Second
+
+if TYPE_CHECKING:
+    from relguide.pictures.widget import NavigationDisplay
 
 
 @dataclass(frozen=True, slots=True, repr=False, init=False)
@@ -43,6 +46,20 @@ class Flight:
         """
         half = 0.5 * (self.join_time or self.duration)
         return picture(self.documents, half // 1.0 if t is None else t, **view)
+
+    def widget(self, **view: Any) -> "NavigationDisplay":
+        """The display with a slider for the time, for notebooks.
+
+        Args:
+            view: what is shown at first: `t` [s], `mode`, `range_nm`, `palette`.
+
+        Raises:
+            MissingExtra: if anywidget is not installed.
+        """
+        need("anywidget")
+        from relguide.pictures.widget import NavigationDisplay
+
+        return NavigationDisplay(self.documents, **view)
 
     def _repr_svg_(self) -> str | None:
         """For notebooks; nothing where QuickJS or the page is not installed."""
