@@ -1,6 +1,6 @@
 /** What the buttons do: the one place where the page talks to the server. */
 
-import { effect, untracked } from "@preact/signals";
+import { batch, effect, untracked } from "@preact/signals";
 import {
   type Answer,
   commandFlight,
@@ -8,13 +8,17 @@ import {
   endFlight,
   listScenarios,
   readFlight,
+  readRecord,
 } from "./api";
 import { fly, followMode, layOut, mapFromFlight } from "./map/flying";
-import type { Actions, Session } from "./session";
+import type { Actions, Recording, Session } from "./session";
 import type { FlightStore } from "./store/flight";
 import type { Guidance } from "./store/states";
 import { OTHER_VERSION, openStream, type Stream } from "./stream";
-import { formatHeading, formatKnots, inPageUnits, wrap360 } from "./units";
+import { lookAs } from "./timeline/link";
+import { createMoves } from "./timeline/moves";
+import { readFile, titleOf } from "./timeline/opening";
+import { formatHeading, formatKnots, inPageUnits, readClockText, wrap360 } from "./units";
 import {
   type Command,
   type Direction,
@@ -28,6 +32,8 @@ import {
 const FIRST_SCENARIO = "fig_6b";
 /** A crew decides at the pace of life; who opens a flight that is engaged wants to see it join. */
 const RATE = { off: 1, engaged: 10 } as const;
+/** A flight that is younger was begun by this page [s]. */
+const BEGUN = 2;
 /** A server that does not answer is asked again this often [ms]. */
 const ASK_AGAIN = 3000;
 
@@ -60,8 +66,9 @@ function sayHeading(heading: number): string {
 /** The actions of a page, and `open`, which begins: joins the flight of the address, or starts one. */
 export function createActions(
   session: Session,
-  store: Pick<FlightStore, "receive" | "link">,
+  store: Pick<FlightStore, "receive" | "link" | "load" | "merge" | "seek" | "follow">,
 ): Actions & { open(address: URLSearchParams): Promise<void> } {
+  const own = createMoves(session, store);
   let stream: Stream | null = null;
   let again: ReturnType<typeof setTimeout> | null = null;
   let attempt: () => void = () => undefined;
@@ -82,6 +89,7 @@ export function createActions(
       isGrounded = joined === null;
       if (isGrounded) return;
     }
+    lookAs(session, address);
     if (joined === null) {
       await begin(requestOf(address.get("scenario") ?? FIRST_SCENARIO));
       return;
@@ -89,12 +97,72 @@ export function createActions(
     const answer = await readFlight(joined);
     if (answer.kind === "done") {
       show(answer.value);
+      await lookBack(answer.value, readClockText(address.get("t") ?? ""));
     } else if (answer.status === 404) {
-      await begin(requestOf(FIRST_SCENARIO));
-      say("done", `Flight ${joined} is no longer flown here, so a new one was started.`);
+      await openFlown(joined, readClockText(address.get("t") ?? ""));
     } else {
       fail(answer, () => void open(address));
     }
+  }
+
+  /** A flight that is no longer in the air: from the records if it is there, else a new one is begun. */
+  async function openFlown(id: string, t: number | null): Promise<void> {
+    const answer = await readRecord(id);
+    if (answer.kind === "done") {
+      await replay(answer.value, { id, from: "record" });
+      if (t !== null) own.moves.seek(t);
+      return;
+    }
+    await begin(requestOf(FIRST_SCENARIO));
+    say("done", `Flight ${id} is neither flown here nor on record, so a new one was started.`);
+  }
+
+  /** What was flown before this page came, as far as it is on record; then shows flight time `t` [s]. */
+  async function lookBack(status: FlightStatus, t: number | null): Promise<void> {
+    if (status.t_s > BEGUN) {
+      const answer = await readRecord(status.id);
+      const read = answer.kind === "done" ? await readFile(answer.value) : null;
+      if (session.flight.id.value !== status.id) return; // another one is shown by now
+      if (read?.kind === "read") store.merge(read.documents, performance.now());
+    }
+    if (t !== null) own.moves.seek(t);
+  }
+
+  /** Shows a recording in place of the flight; what is wrong with it is said, and all stays as it was. */
+  async function replay(file: Blob, about: Pick<Recording, "id" | "from">): Promise<void> {
+    say("sending", "Reading the recording…");
+    const read = await readFile(file);
+    if (read.kind === "refused") {
+      say("refused", read.sentence);
+      return;
+    }
+    stream?.close();
+    stream = null;
+    if (again !== null) clearTimeout(again);
+    isGrounded = false;
+    const title = titleOf(read.documents);
+    batch(() => {
+      session.outage.value = null;
+      session.status.value = null;
+      session.recording.value = { ...about, title };
+      if (session.ndMode.value === "PLAN") session.ndMode.value = "ARC";
+      store.link("open");
+      store.load(about.id, read.documents, performance.now());
+    });
+    visit(about.from === "record" ? about.id : null);
+    say("done", `Recorded: ${title}.`);
+  }
+
+  /** Notes in the address which flight is shown: going back shows the one before. */
+  function visit(id: string | null): void {
+    const address = new URL(location.href);
+    const before = address.searchParams.get("flight");
+    if (id === before) return;
+    if (id === null) address.searchParams.delete("flight");
+    else address.searchParams.set("flight", id);
+    address.searchParams.delete("t");
+    if (before === null) history.replaceState(null, "", address);
+    else history.pushState(null, "", address);
   }
 
   // What is refused when its second comes was taken before: the last word is the service's.
@@ -144,10 +212,9 @@ export function createActions(
   function show(status: FlightStatus): void {
     stream?.close();
     session.outage.value = null;
+    session.recording.value = null;
     session.status.value = status;
-    const address = new URL(location.href);
-    address.searchParams.set("flight", status.id);
-    history.replaceState(null, "", address);
+    visit(status.id);
     stream = openStream(status.stream_url, PROTOCOL, {
       tick(tick) {
         if (session.outage.value !== null) session.outage.value = null;
@@ -162,6 +229,9 @@ export function createActions(
         };
       },
       refused(code, sentence) {
+        // What was flown stays on show, and can be looked at again.
+        const { clock } = session.flight;
+        if (code !== OTHER_VERSION) clock.value = { ...clock.value, ended: true };
         session.outage.value =
           code === OTHER_VERSION
             ? { kind: "other_version", text: sentence || "The server is of another version." }
@@ -201,6 +271,11 @@ export function createActions(
   }
 
   async function command(body: Command, doing: string, done: string): Promise<void> {
+    const behind = own.refusal();
+    if (behind !== null) {
+      say("refused", behind);
+      return;
+    }
     const status = session.status.value;
     if (status === null) {
       say("refused", "There is no flight to command.");
@@ -225,6 +300,11 @@ export function createActions(
     start: (scenario) => void begin(requestOf(scenario)),
     end: () => void end(),
     engage(engagement) {
+      const behind = own.refusal();
+      if (behind !== null) {
+        say("refused", behind);
+        return;
+      }
       // A click on a leader that is designated already takes nothing back.
       if (engagement === "designated" && session.shown.numbers.value.state !== "off") return;
       const tooEarly = TOO_EARLY[session.shown.numbers.value.state];
@@ -248,10 +328,18 @@ export function createActions(
       const text = received ? "Leader's reports received" : "Leader's reports lost";
       void command({ command: "leader_data", received }, `${text}…`, `${text}.`);
     },
-    play: () => void command({ command: "play" }, "Playing…", "Playing."),
-    pause: () => void command({ command: "pause" }, "Pausing…", "Paused."),
-    setRate: (rate) =>
-      void command({ command: "set_rate", rate }, `Rate ×${rate}…`, `Rate ×${rate}.`),
+    play() {
+      if (own.isOwn() || session.flight.clock.value.ended) own.play();
+      else void command({ command: "play" }, "Playing…", "Playing.");
+    },
+    pause() {
+      if (own.isOwn()) own.pause();
+      else void command({ command: "pause" }, "Pausing…", "Paused.");
+    },
+    setRate(rate) {
+      if (own.isOwn() || session.flight.clock.value.ended) own.setRate(rate);
+      else void command({ command: "set_rate", rate }, `Rate ×${rate}…`, `Rate ×${rate}.`);
+    },
     leaderHeading,
     leaderSpeed(tas) {
       const text = `Leader to ${formatKnots(tas)} kt`;
@@ -276,5 +364,13 @@ export function createActions(
     fly: () => fly(session, begin),
     mapFromFlight: () => mapFromFlight(session),
     reload: () => location.reload(),
+    ...own.moves,
+    openRecord(id) {
+      void readRecord(id).then((answer) => {
+        if (answer.kind === "done") return replay(answer.value, { id, from: "record" });
+        say("refused", answer.sentence);
+      });
+    },
+    openFile: (file) => void replay(file, { id: file.name, from: "file" }),
   };
 }

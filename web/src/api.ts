@@ -37,6 +37,8 @@ const ROOT = "api/v1";
 const PATIENCE = 8000;
 /** The first flight of a new installation waits until the planner is compiled. */
 const FIRST_FLIGHT_PATIENCE = 120_000;
+/** A long flight on record takes some seconds to be read. */
+const RECORD_PATIENCE = 60_000;
 
 export async function listScenarios(): Promise<Answer<readonly ScenarioInfo[]>> {
   const answer = await request<ScenarioList>("GET", `${ROOT}/scenarios`);
@@ -71,6 +73,40 @@ export function drawArea(wanted: AreaRequest): Promise<Answer<AreaAnswer>> {
 
 export function endFlight(id: string): Promise<Answer<null>> {
   return request("DELETE", `${ROOT}/flights/${encodeURIComponent(id)}`);
+}
+
+/** A flight on record, in short: what the list shows of it. */
+export interface RecordedFlight {
+  readonly id: string;
+  readonly scenario: string;
+  readonly title: string;
+  readonly outcome: string;
+  /** RFC 3339, UTC. */
+  readonly started_at: string;
+  readonly figures: {
+    readonly join_time_s: number | null;
+    readonly least_separation_m: number | null;
+  };
+}
+
+/** The newest flights on record. */
+export function listRecords(
+  most: number,
+): Promise<Answer<{ readonly flights: readonly RecordedFlight[] }>> {
+  return request("GET", `${ROOT}/records/flights?limit=${most}`);
+}
+
+/** A flight on record as a recording, as a file would hold it. */
+export async function readRecord(id: string): Promise<Answer<Blob>> {
+  const path = `${ROOT}/records/flights/${encodeURIComponent(id)}/export?format=jsonl`;
+  try {
+    const response = await fetch(path, { signal: AbortSignal.timeout(RECORD_PATIENCE) });
+    if (response.ok) return { kind: "done", value: await response.blob() };
+    const sentence = sentenceOf(parse(await response.text()), response.status);
+    return { kind: "refused", status: response.status, sentence };
+  } catch {
+    return { kind: "refused", status: 0, sentence: "The server does not answer." };
+  }
 }
 
 /** Null if the server does not say. */

@@ -20,9 +20,11 @@ import { Help } from "./panels/help";
 import { LeaderControls } from "./panels/leader-controls";
 import { OutageNotice } from "./panels/outage";
 import { PlanNumbers } from "./panels/plan";
+import { Records } from "./panels/records";
 import { ScenarioPicker } from "./panels/scenario-picker";
 import { Scene } from "./scene/scene";
 import type { Actions, Session } from "./session";
+import { Timeline } from "./timeline/timeline";
 
 /** Where the panels stand in two columns instead of three: as in styles/layout.css. */
 const NARROW = "(max-width: 1279px)";
@@ -96,7 +98,9 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
           </section>
         )}
       </main>
+      {!isMap && <Timeline session={session} actions={actions} />}
       <Help session={session} />
+      <Records session={session} actions={actions} />
       <Announcer session={session} />
     </>
   );

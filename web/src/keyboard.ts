@@ -3,7 +3,11 @@
 import { type Editor, halfExtent, pan, showAll, zoom } from "./map/editor";
 import { set } from "./parts";
 import { type Actions, type Session, stepRange } from "./session";
+import { speedOf } from "./store/flight";
 
+/** An arrow moves the clock so far, and with Shift [s]. */
+const STEP = 1;
+const LONG_STEP = 10;
 /** An arrow moves the map by this part of what is seen. */
 const PAN = 0.15;
 
@@ -18,7 +22,12 @@ type Act = (() => void) | null;
 
 /** What each key does; a letter is the same whatever its case. */
 const KEYS: Record<string, (session: Session, actions: Actions) => Act> = {
-  " ": ({ flight }, actions) => (flight.clock.value.paused ? actions.play : actions.pause),
+  " ": ({ flight }, actions) => (speedOf(flight) === 0 ? actions.play : actions.pause),
+  ",": (_, actions) => () => actions.toMark(-1),
+  ".": (_, actions) => () => actions.toMark(1),
+  "[": (_, actions) => () => actions.setLoop("from"),
+  "]": (_, actions) => () => actions.setLoop("to"),
+  l: (_, actions) => actions.live,
   r: ({ ndMode }) => set(ndMode, "ROSE"),
   a: ({ ndMode }) => set(ndMode, "ARC"),
   p: ({ ndMode }) => set(ndMode, "PLAN"),
@@ -33,9 +42,10 @@ const KEYS: Record<string, (session: Session, actions: Actions) => Act> = {
   x: (_, actions) => () => actions.engage("off"),
   m: ({ sceneMaximised }) => set(sceneMaximised, !sceneMaximised.value),
   "?": ({ helpOpen }) => set(helpOpen, !helpOpen.value),
-  Escape: ({ helpOpen, sceneMaximised }) => {
+  Escape: ({ helpOpen, recordsOpen, sceneMaximised }) => {
     return () => {
       helpOpen.value = false;
+      recordsOpen.value = false;
       sceneMaximised.value = false;
     };
   },
@@ -55,10 +65,14 @@ function changeRange(session: Session, step: 1 | -1): void {
 }
 
 /** What a key does, or null if it is not ours. */
-export function keyAction(key: string, session: Session, actions: Actions): Act {
+export function keyAction(key: string, session: Session, actions: Actions, isShifted = false): Act {
   const isLetter = /^[a-z]$/i.test(key);
   if (!session.letterKeys.value && isLetter) return null;
-  if (key.startsWith("Arrow")) return isMap(session) ? () => panBy(session.map, key) : null;
+  if (key.startsWith("Arrow")) {
+    if (isMap(session)) return () => panBy(session.map, key);
+    const way = key === "ArrowRight" ? 1 : key === "ArrowLeft" ? -1 : 0;
+    return way === 0 ? null : () => actions.step(way * (isShifted ? LONG_STEP : STEP));
+  }
   return KEYS[isLetter ? key.toLowerCase() : key]?.(session, actions) ?? null;
 }
 

@@ -25,16 +25,20 @@ import { keepPreferences } from "./preferences";
 import { createSession } from "./session";
 import { soundAlerts } from "./sound";
 import { createFlightStore } from "./store/flight";
+import { takeDroppedFiles } from "./timeline/drop";
+import { followInstant } from "./timeline/link";
 
 const store = createFlightStore();
-const session = createSession(store.flight, followFirstStart());
+const session = createSession(store.flight, followFirstStart(), store.history);
 const receive = drawPictures(store, session);
-const actions = createActions(session, { link: store.link, receive });
+const actions = createActions(session, { ...store, receive });
 keepPreferences(session);
 soundAlerts(session);
 followRange(session);
 followMap(session);
 followAddress(session);
+followInstant(session);
+takeDroppedFiles(actions);
 
 const place = document.querySelector("#cockpit");
 if (place === null) throw new Error("The page has no place for the cockpit.");
@@ -42,10 +46,12 @@ render(<Cockpit session={session} actions={actions} />, place);
 
 addEventListener("keydown", (event) => {
   if (isTaken(event)) return;
-  const act = keyAction(event.key, session, actions);
+  const act = keyAction(event.key, session, actions, event.shiftKey);
   if (act === null) return;
   event.preventDefault();
   act();
 });
 
-void actions.open(new URL(location.href).searchParams);
+const open = () => void actions.open(new URL(location.href).searchParams);
+addEventListener("popstate", open);
+open();

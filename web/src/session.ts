@@ -3,6 +3,7 @@
 import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
 import { createEditor, type Editor } from "./map/editor";
+import { createHistory, type History } from "./store/history";
 import { createShown, type Shown } from "./store/picture";
 import type { Flight } from "./store/types";
 import type { Direction, Engagement, FlightStatus, ScenarioInfo } from "./wire";
@@ -14,6 +15,9 @@ export const ND_RANGES = [10, 20, 40, 80, 160, 320] as const;
 export type NdRange = (typeof ND_RANGES)[number];
 /** Simulated seconds per wall-clock second, as offered. */
 export const RATES = [1, 2, 5, 10, 20, 60] as const;
+
+/** The same behind the newest, where the page's own clock runs. */
+export const REPLAY_RATES = [0.25, 0.5, 1, 2, 5, 10, 20, 60] as const;
 
 /** What became of the last command. */
 export type Feedback =
@@ -29,8 +33,26 @@ export type Outage =
   | { readonly kind: "refused"; readonly text: string }
   | { readonly kind: "other_version"; readonly text: string };
 
+/** A recording on the screen: of which flight, and from where it came. */
+export interface Recording {
+  readonly id: string;
+  readonly title: string;
+  /** A flight on record of the service, or a file of the user's own. */
+  readonly from: "record" | "file";
+}
+
 export interface Session {
   readonly flight: Flight;
+  /** All that the page knows of the flight: what is drawn over time reads it. */
+  readonly history: () => History;
+  /** What is shown in place of a flight that flies; null while one does. */
+  readonly recording: Signal<Recording | null>;
+  /** How fast the page's own clock runs when it does [s of flight per s]. */
+  readonly replayRate: Signal<number>;
+  /** Why a typed time was not taken; "" if it was. */
+  readonly timeRefusal: Signal<string>;
+  /** Whether the list of flights on record is open. */
+  readonly recordsOpen: Signal<boolean>;
   /** The picture of this instant, and its numbers: what every part of the page shows. */
   readonly shown: Shown;
   readonly scenarios: Signal<readonly ScenarioInfo[]>;
@@ -86,14 +108,34 @@ export interface Actions {
   mapFromFlight(): void;
   /** Loads the page anew. */
   reload(): void;
+  /** Shows flight time `t` [s]: the page's own clock then runs as it did, or stands. */
+  seek(t: number): void;
+  /** Shows the instant so many seconds later, or earlier. */
+  step(seconds: number): void;
+  /** Shows the event before or after. */
+  toMark(way: 1 | -1): void;
+  /** Shows the newest again. */
+  live(): void;
+  /** Begins or ends showing the last half minute again and again; sets where that begins, or ends. */
+  toggleLoop(): void;
+  setLoop(end: "from" | "to"): void;
+  /** Shows a flight on record, or a recording of the user's own. */
+  openRecord(id: string): void;
+  openFile(file: File): void;
 }
 
 export function createSession(
   flight: Flight,
   firstStart: Signal<Readiness | null> = signal(null),
+  history: () => History = createHistory,
 ): Session {
   return {
     flight,
+    history,
+    recording: signal(null),
+    replayRate: signal(1),
+    timeRefusal: signal(""),
+    recordsOpen: signal(false),
     shown: createShown(flight),
     scenarios: signal([]),
     status: signal(null),
@@ -115,7 +157,8 @@ export function createSession(
 
 /** Whether there is a flight that takes commands. */
 export function isFlying({ flight, outage }: Session): boolean {
-  return flight.read.value.result === null && outage.value?.kind !== "flight_gone";
+  const isOver = flight.clock.value.ended || flight.read.value.result !== null;
+  return !isOver && outage.value?.kind !== "flight_gone";
 }
 
 /** The next range outward (+1) or inward (−1), held to the ends of the selector. */

@@ -52,6 +52,13 @@ export function formatClock(time: number): string {
   return `${sign}${minutes}:${String(seconds % 60).padStart(2, "0")}`;
 }
 
+/** A time typed as h:mm:ss, mm:ss or seconds [s]; null if it is none. */
+export function readClockText(text: string): number | null {
+  const parts = text.trim().split(":");
+  if (parts.length > 3 || !parts.every((part) => /^\d+(\.\d+)?$/.test(part))) return null;
+  return parts.reduce((sum, part) => 60 * sum + Number(part), 0);
+}
+
 /** A flight level, e.g. "FL350". `altitude` [m] */
 export function formatLevel(altitude: number): string {
   return `FL${String(nearestInteger(altitude / FT / 100)).padStart(3, "0")}`;

@@ -20,5 +20,13 @@ export function silentActions(): Actions {
     fly: vi.fn(),
     mapFromFlight: vi.fn(),
     reload: vi.fn(),
+    seek: vi.fn(),
+    step: vi.fn(),
+    toMark: vi.fn(),
+    live: vi.fn(),
+    toggleLoop: vi.fn(),
+    setLoop: vi.fn(),
+    openRecord: vi.fn(),
+    openFile: vi.fn(),
   };
 }

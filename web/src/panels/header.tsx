@@ -3,7 +3,7 @@
 import type { ComponentChildren } from "preact";
 import { Icon } from "../parts";
 import type { Session } from "../session";
-import type { Connection } from "../store/types";
+import type { Connection, Flight } from "../store/types";
 
 const CONNECTION_TEXT: Record<Connection, string> = {
   connecting: "Connecting",
@@ -13,7 +13,7 @@ const CONNECTION_TEXT: Record<Connection, string> = {
 };
 
 export function Header(props: { session: Session; children?: ComponentChildren }) {
-  const { helpOpen, sound } = props.session;
+  const { helpOpen, recordsOpen, sound } = props.session;
   return (
     <header class="top">
       <h1>
@@ -23,6 +23,17 @@ export function Header(props: { session: Session; children?: ComponentChildren }
       <div class="top-middle">{props.children}</div>
       <SimClock session={props.session} />
       <ConnectionState session={props.session} />
+      <button
+        type="button"
+        class="quiet"
+        aria-expanded={recordsOpen.value}
+        onClick={() => {
+          recordsOpen.value = !recordsOpen.value;
+        }}
+      >
+        <Icon name="records" />
+        Records
+      </button>
       <button
         type="button"
         class="quiet"
@@ -52,7 +63,7 @@ export function Header(props: { session: Session; children?: ComponentChildren }
 
 function SimClock(props: { session: Session }) {
   const { flight, shown } = props.session;
-  const { rate, paused, ended } = flight.clock.value;
+  const { rate, paused, ended } = clockOf(flight);
   return (
     <p class="sim">
       <span class="sim-label">SIM</span>
@@ -63,9 +74,19 @@ function SimClock(props: { session: Session }) {
   );
 }
 
+/** The clock of what is shown: the flight's, or the page's own. */
+function clockOf({ source, clock }: Flight): { rate: number; paused: boolean; ended: boolean } {
+  if (source.value.kind === "live") return clock.value;
+  const { rate } = source.value;
+  return { rate: rate === 0 ? 1 : rate, paused: rate === 0, ended: false };
+}
+
 function ConnectionState(props: { session: Session }) {
-  const { connection, read } = props.session.flight;
+  const { connection, read, source } = props.session.flight;
   const state = connection.value;
+  const { recording } = props.session;
+  if (recording.value !== null) return <p class="connection">Recorded</p>;
+  if (source.value.kind === "replay") return <p class="connection stale">Behind the flight</p>;
   // The map needs no flight.
   if (props.session.ndMode.value === "PLAN" && props.session.status.value === null)
     return <p class="connection">No flight</p>;

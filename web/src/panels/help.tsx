@@ -8,6 +8,10 @@ import { ELEMENTS } from "../words";
 
 const KEYS: readonly (readonly [string, string])[] = [
   ["Space", "play or pause"],
+  ["←  →", "a second back or on; with Shift ten seconds"],
+  [",  .", "to the event before or after"],
+  ["[  ]", "where a loop begins, and where it ends"],
+  ["L", "back to the newest"],
   ["D", "designate the leader, or click on it"],
   ["C", "confirm the proposed path"],
   ["E", "engage what was accepted"],

@@ -70,8 +70,10 @@ export function createFlightStore(): FlightStore {
   let newest: PairSample | null = null;
   let heard: PairSample | null = null; // the newest sample that heard of the leader
   let fresh = Number.NEGATIVE_INFINITY; // wall time at which the data were last known to be new [ms]
+  let drawn = { revision: -1, moment: NO_MOMENT }; // the last one replayed
   let linked: Link = "connecting";
   let readAt = Number.NEGATIVE_INFINITY;
+  let held = 0; // how much is known of the flight
   let offset: { gap: Gap; wall: number } = { gap: NO_GAP, wall: 0 };
 
   function clear(id: string): void {
@@ -134,6 +136,9 @@ export function createFlightStore(): FlightStore {
     const last = Math.max(span?.last ?? first, newest?.t_s ?? first);
     const before = flight.span.value;
     if (before?.first !== first || before.last !== last) flight.span.value = { first, last };
+    const size = history.knots.count + history.events.length;
+    if (size !== held) flight.revision.value += 1;
+    held = size;
   }
 
   function load(id: string, documents: readonly Document[], wall: number): void {
@@ -203,7 +208,13 @@ export function createFlightStore(): FlightStore {
       stand(last, wall);
       t = last;
     }
-    return momentAt(history, Math.max(first, Math.min(t, last)), { rate: Math.max(1, own.rate) });
+    const at = Math.max(first, Math.min(t, last));
+    const isDrawn =
+      drawn.revision === flight.revision.value && drawn.moment === flight.moment.value;
+    if (own.rate === 0 && isDrawn && drawn.moment.t === at) return drawn.moment;
+    const moment = momentAt(history, at, { rate: Math.max(1, own.rate) });
+    drawn = { revision: flight.revision.value, moment };
+    return moment;
   }
 
   function stand(t: number, wall: number): void {
@@ -277,6 +288,7 @@ export function emptyFlight(): Flight {
     since: signal(0),
     source: signal({ kind: "live" }),
     span: signal(null),
+    revision: signal(0),
     loop: signal(null),
     clock: signal({ rate: 1, paused: false, ended: false }),
     connection: signal("connecting"),

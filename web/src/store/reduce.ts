@@ -1,15 +1,8 @@
 /** What one document changes of what is known: a fold over all documents but the samples. */
 
 import { inPageUnits } from "../units";
-import type {
-  Alert,
-  Document,
-  EngagementChanged,
-  FlightStarted,
-  PlanChanged,
-  Unable,
-} from "../wire";
-import { isAbout, pairCard, pairResult } from "./pair";
+import type { Alert, Document, EngagementChanged, PlanChanged, Unable } from "../wire";
+import { isAbout, type PairCard, pairCard, pairResult } from "./pair";
 import type { Known, Message } from "./types";
 
 const MESSAGES_KEPT = 200;
@@ -35,61 +28,91 @@ export const NOTHING_KNOWN: Known = {
 
 /** What is known after one more document. */
 export function reduce(known: Known, document: Document): Known {
-  if (document.kind === "flight_started") return begin(document);
+  if (document.kind === "flight_started") return { ...NOTHING_KNOWN, started: pairCard(document) };
   const pair = known.started;
   if (pair === null || !isAbout(document, pair)) return known;
-  const t = document.t_s;
+  const after = take(known, document, pair);
+  const message = messageOf(document);
+  if (message === null) return after;
+  return { ...after, messages: [message, ...after.messages].slice(0, MESSAGES_KEPT) };
+}
+
+function take(known: Known, document: Document, pair: PairCard): Known {
   switch (document.kind) {
     case "leader_route":
       return { ...known, route: document };
-    case "leader_changed":
-      return log(known, { t, kind: "leader", text: document.message });
     case "plan_changed":
-      return reducePlan(known, document);
+      return takePlan(known, document);
     case "plan_unavailable":
-      return log(
-        { ...known, unavailable: document, proposal: null },
-        { t, kind: "no_plan", text: document.answer.message },
-      );
+      return { ...known, unavailable: document, proposal: null };
     case "plan_proposed":
       return { ...known, proposal: document, unavailable: null, unable: null };
     case "engagement_changed":
-      return reduceEngagement(known, document);
-    case "plan_refused":
-      return log(known, { t, kind: "refused", text: document.message });
+      return takeEngagement(known, document);
     case "mode_changed":
-      return log({ ...known, mode: document }, { t, kind: "mode", text: document.message });
+      return { ...known, mode: document };
     case "promise_changed":
-      return log({ ...known, promise: document }, { t, kind: "plan", text: document.message });
+      return { ...known, promise: document };
     case "alert":
-      return reduceAlert(known, document);
+      return takeAlert(known, document);
     case "unable":
-      return log({ ...known, unable: document }, { t, kind: "unable", text: sentenceOf(document) });
+      return { ...known, unable: document };
     case "separation_lost":
-      return log(
-        { ...known, lost: document },
-        { t, kind: "lost", text: `Separation: ${startLower(document.cause)}` },
-      );
+      return { ...known, lost: document };
     case "forecast_changed":
       return { ...known, forecast: document };
+    case "flight_ended":
+      return { ...known, result: pairResult(document, pair) };
+    case "flight_started":
+    case "leader_changed":
+    case "plan_refused":
     case "sample":
       return known;
-    case "flight_ended": {
-      const result = pairResult(document, pair);
-      if (result === null) return known;
-      return log({ ...known, result }, { t, kind: "end", text: document.message });
-    }
   }
 }
 
-function begin(started: FlightStarted): Known {
-  return { ...NOTHING_KNOWN, started: pairCard(started) };
+/** The line of the log that a document makes; null if it makes none. */
+export function messageOf(document: Document): Message | null {
+  const t = document.t_s;
+  const say = (kind: Message["kind"], said: string) => ({ t, kind, text: inPageUnits(said) });
+  switch (document.kind) {
+    case "leader_changed":
+      return say("leader", document.message);
+    case "plan_changed":
+      return document.announced ? say("plan", document.message) : null;
+    case "plan_unavailable":
+      return say("no_plan", document.answer.message);
+    case "engagement_changed": {
+      const isRefused = document.engagement === document.previous;
+      return say(isRefused ? "refused" : "engagement", document.message);
+    }
+    case "plan_refused":
+      return say("refused", document.message);
+    case "mode_changed":
+      return say("mode", document.message);
+    case "promise_changed":
+      return say("plan", document.message);
+    case "alert":
+      return say(document.cleared ? "clear" : document.level, document.message);
+    case "unable":
+      return say("unable", sentenceOf(document));
+    case "separation_lost":
+      return say("lost", `Separation: ${startLower(document.cause)}`);
+    case "flight_ended":
+      return say("end", document.message);
+    case "flight_started":
+    case "leader_route":
+    case "plan_proposed":
+    case "forecast_changed":
+    case "sample":
+      return null;
+  }
 }
 
-function reducePlan(known: Known, changed: PlanChanged): Known {
+function takePlan(known: Known, changed: PlanChanged): Known {
   const { plan: before, unavailable } = known;
   const isNews = changed.announced && before !== null && unavailable === null;
-  const planned = {
+  return {
     ...known,
     superseded: isNews ? { plan: before, at: changed.t_s } : known.superseded,
     plan: changed,
@@ -97,18 +120,11 @@ function reducePlan(known: Known, changed: PlanChanged): Known {
     unable: null,
     promise: null,
   };
-  if (!changed.announced) return planned;
-  return log(planned, { t: changed.t_s, kind: "plan", text: changed.message });
 }
 
-function reduceEngagement(known: Known, changed: EngagementChanged): Known {
-  const isRefused = changed.engagement === changed.previous;
-  const kind = isRefused ? "refused" : "engagement";
-  const said = log(
-    { ...known, engagement: changed },
-    { t: changed.t_s, kind, text: changed.message },
-  );
-  if (isRefused) return said;
+function takeEngagement(known: Known, changed: EngagementChanged): Known {
+  const said = { ...known, engagement: changed };
+  if (changed.engagement === changed.previous) return said; // refused
   const steps = [changed.previous, changed.engagement];
   if (steps.includes("armed") && steps.includes("designated")) return said; // the proposal stands
   const cleared = { ...said, proposal: null, unavailable: null };
@@ -118,13 +134,11 @@ function reduceEngagement(known: Known, changed: EngagementChanged): Known {
   return { ...cleared, plan: null, superseded: null, unable };
 }
 
-function reduceAlert(known: Known, alert: Alert): Known {
+function takeAlert(known: Known, alert: Alert): Known {
   const others = known.alerts.filter(
     (each) => each.subject !== alert.subject || each.other !== alert.other,
   );
-  const alerts = alert.cleared ? others : [...others, alert];
-  const kind = alert.cleared ? "clear" : alert.level;
-  return log({ ...known, alerts }, { t: alert.t_s, kind, text: alert.message });
+  return { ...known, alerts: alert.cleared ? others : [...others, alert] };
 }
 
 /** Why guidance is unable, without the word that stands beside it. */
@@ -135,9 +149,4 @@ function sentenceOf({ message }: Unable): string {
 
 function startLower(sentence: string): string {
   return sentence.charAt(0).toLowerCase() + sentence.slice(1);
-}
-
-function log(known: Known, { t, kind, text: said }: Message): Known {
-  const message = { t, kind, text: inPageUnits(said) };
-  return { ...known, messages: [message, ...known.messages].slice(0, MESSAGES_KEPT) };
 }

@@ -121,6 +121,8 @@ export interface Flight {
   readonly source: Signal<Source>;
   /** First and last flight time that can be shown [s]; null before the first sample. */
   readonly span: Signal<{ readonly first: number; readonly last: number } | null>;
+  /** Changes whenever more is known of the flight: what is drawn over time is drawn anew. */
+  readonly revision: Signal<number>;
   /** The part of the flight that is shown again and again; null for none [s, flight time]. */
   readonly loop: Signal<{ readonly from: number; readonly to: number } | null>;
   /** What the server says of its clock; of a recording, that it has ended. */

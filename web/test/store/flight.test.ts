@@ -73,24 +73,24 @@ describe("what the ticks say", () => {
 
   test("a new plan replaces the old one, which stays visible for three seconds", () => {
     const store = joined();
-    const before = () => pictureOf(store.flight.moment.value).superseded;
+    const faded = () => pictureOf(store.flight.moment.value).superseded;
     store.receive(tick(1, [planChanged(1), sample(1)]), 2000);
     expect(store.flight.moment.value.plan?.t_s).toBe(1);
-    expect(before()?.t_s).toBe(0);
+    expect(faded()?.t_s).toBe(0);
     store.receive(tick(3.9, [sample(3.9)]), 4900);
-    expect(before()?.t_s).toBe(0);
+    expect(faded()?.t_s).toBe(0);
     store.receive(tick(4.1, [sample(4.1)]), 5100);
-    expect(before()).toBeNull();
+    expect(faded()).toBeNull();
   });
 
   test("what is shown for a while is seen for two seconds, however fast the flight goes", () => {
     const store = joined(0, 60);
-    const before = () => pictureOf(store.flight.moment.value).superseded;
+    const faded = () => pictureOf(store.flight.moment.value).superseded;
     store.receive(tick(60, [planChanged(60), sample(60)], { rate: 60 }), 2000);
     store.receive(tick(174, [sample(174)], { rate: 60 }), 3900);
-    expect(before()?.t_s).toBe(0);
+    expect(faded()?.t_s).toBe(0);
     store.receive(tick(192, [sample(192)], { rate: 60 }), 4200);
-    expect(before()).toBeNull();
+    expect(faded()).toBeNull();
   });
 
   test("no plan is told until there is one again", () => {

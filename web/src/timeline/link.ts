@@ -1,0 +1,44 @@
+/** Links to an instant: `?flight=…&t=560&nd=ARC&range=40` is what is shown, and shows it again. */
+
+import { effect } from "@preact/signals";
+import { ND_RANGES, type Session } from "../session";
+
+/** Browsers take so many changes of the address and no more: it follows when the hand rests [ms]. */
+const REST = 300;
+
+/** Shows the display as a link has it: mode and range. */
+export function lookAs({ ndMode, ndRange, ndAuto }: Session, link: URLSearchParams): void {
+  const mode = link.get("nd");
+  if (mode === "ARC" || mode === "ROSE") ndMode.value = mode;
+  const range = ND_RANGES.find((each) => String(each) === link.get("range"));
+  if (range === undefined) return;
+  ndAuto.value = false;
+  ndRange.value = range;
+}
+
+/** Keeps the instant, the mode and a range that was chosen in the page's address. */
+export function followInstant(session: Session): void {
+  const { flight, ndMode, ndAuto, ndRange } = session;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  effect(() => {
+    const { source } = flight;
+    const isStanding = source.value.kind === "replay" && source.value.rate === 0;
+    const t = isStanding ? String(Math.round(flight.moment.value.t * 10) / 10) : null;
+    const mode = ndMode.value;
+    const range = ndAuto.value || mode === "PLAN" ? null : String(ndRange.value);
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      const address = new URL(location.href);
+      const before = address.href;
+      const put = (name: string, value: string | null) => {
+        if (value === null) address.searchParams.delete(name);
+        else address.searchParams.set(name, value);
+      };
+      if (!address.searchParams.has("flight")) return;
+      put("t", t);
+      put("nd", mode === "ROSE" ? mode : null);
+      put("range", range);
+      if (address.href !== before) history.replaceState(history.state, "", address);
+    }, REST);
+  });
+}
