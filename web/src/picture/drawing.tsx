@@ -7,14 +7,14 @@ import type { Palette } from "./palettes";
 
 /** As tokens.css has it; B612 where it is installed. */
 const FONT = "B612, Inter, 'Segoe UI', 'DejaVu Sans', sans-serif";
-/** Height of the lines under the glass, and where they stand [px]. */
-const CAPTION = { height: 56, size: 13, left: 14, lines: [22, 43] } as const;
+/** The lines under the glass: size of the type, where the first stands, from one to the next, and below [px]. */
+const CAPTION = { size: 13, left: 14, first: 22, step: 21, below: 13 } as const;
 /** Longest line at that size [characters]. */
 const LONGEST = 94;
 
 interface Props extends LayerProps {
   readonly palette: Palette;
-  /** What stands under the glass, at most two lines. */
+  /** What stands under the glass, line by line. */
   readonly caption: readonly string[];
   /** What is seen, in words. */
   readonly description: string;
@@ -24,7 +24,8 @@ export function Drawing({ shown, view, palette, caption, description }: Props) {
   const { mode, centre, tape } = view.layout.value;
   const map = `map-${mode}`; // pictures of several modes may stand on one page
   const isKnown = shown.picture.value.now !== null;
-  const height = SIZE + (caption.length > 0 ? CAPTION.height : 0);
+  const { first, step, below } = CAPTION;
+  const height = SIZE + first + step * (caption.length - 1) + below;
   const layers = (those: typeof GLASS_LAYERS | typeof GROUND_LAYERS | typeof MAP_LAYERS) =>
     those.map((Layer) => <Layer key={Layer.name} shown={shown} view={view} />);
   return (
@@ -55,16 +56,14 @@ export function Drawing({ shown, view, palette, caption, description }: Props) {
         )}
         {layers(GLASS_LAYERS)}
       </g>
-      {caption.length > 0 && (
-        <g font-size={CAPTION.size} fill={palette.label}>
-          <path d={`M0 ${SIZE + 0.5}H${SIZE}`} stroke={palette.scale} stroke-opacity={0.4} />
-          {caption.map((line, i) => (
-            <text key={line} x={CAPTION.left} y={SIZE + (CAPTION.lines[i] ?? 0)}>
-              {line.length > LONGEST ? `${line.slice(0, LONGEST - 1)}…` : line}
-            </text>
-          ))}
-        </g>
-      )}
+      <g font-size={CAPTION.size} fill={palette.label}>
+        <path d={`M0 ${SIZE + 0.5}H${SIZE}`} stroke={palette.scale} stroke-opacity={0.4} />
+        {caption.map((line, i) => (
+          <text key={line} x={CAPTION.left} y={SIZE + first + step * i}>
+            {line.length > LONGEST ? `${line.slice(0, LONGEST - 1)}…` : line}
+          </text>
+        ))}
+      </g>
     </svg>
   );
 }

@@ -26,7 +26,7 @@ export interface PictureView {
 export interface PictureOptions extends PictureView {
   /** Flight time [s]. */
   readonly t: number;
-  /** What stands under the line with title, time and version: the command that makes the picture. */
+  /** What stands under the line with title, time and version, as the command that makes the picture. */
   readonly caption: string;
 }
 
@@ -55,7 +55,7 @@ export function pictureOfShown(
       shown={shown}
       view={view}
       palette={COLOURS[palette]}
-      caption={[`${title} · relguide ${__VERSION__}`, ...(caption === "" ? [] : [caption])]}
+      caption={[`${title} · relguide ${__VERSION__}`, ...caption.split("\n").filter(Boolean)]}
       description={shown.words.value}
     />,
   );

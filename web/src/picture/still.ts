@@ -31,12 +31,20 @@ export function shownOf(history: History, t: number): Shown {
   return createShown({ ...emptyFlight(), moment, read: moment });
 }
 
-/** The documents of a text: a recording, a line each, or a JSON array. */
+/**
+ * The documents of a text: a recording, a line each, or a JSON array.
+ *
+ * @throws if a line is no JSON, with its number.
+ */
 export function documentsOf(text: string): Document[] {
   if (text.trimStart().startsWith("[")) return JSON.parse(text);
-  return text
-    .split("\n")
-    .filter((line) => line.trim() !== "")
-    .map((line) => JSON.parse(line))
-    .filter((each) => "kind" in each);
+  return text.split("\n").flatMap((line, index) => {
+    if (line.trim() === "") return [];
+    try {
+      const document = JSON.parse(line);
+      return "kind" in document ? [document] : []; // the head of a recording has none
+    } catch {
+      throw new Error(`Line ${index + 1} of the flight is no document: ${line.slice(0, 40)}`);
+    }
+  });
 }
