@@ -29,6 +29,7 @@ if typing.TYPE_CHECKING:
     from relguide.flying.documents import Alert as Alert
     from relguide.flying.documents import Document as Document
     from relguide.flying.documents import EngagementChanged as EngagementChanged
+    from relguide.flying.documents import FanChanged as FanChanged
     from relguide.flying.documents import FlightEnded as FlightEnded
     from relguide.flying.documents import FlightStarted as FlightStarted
     from relguide.flying.documents import ForecastChanged as ForecastChanged
@@ -123,6 +124,7 @@ _HOMES = {
     "Alert": "relguide.flying.documents",
     "Document": "relguide.flying.documents",
     "EngagementChanged": "relguide.flying.documents",
+    "FanChanged": "relguide.flying.documents",
     "FlightEnded": "relguide.flying.documents",
     "FlightStarted": "relguide.flying.documents",
     "ForecastChanged": "relguide.flying.documents",
@@ -226,6 +228,7 @@ __all__ = [
     "DeclaredLeader",
     "Document",
     "EngagementChanged",
+    "FanChanged",
     "Flight",
     "FlightEnded",
     "FlightStarted",

@@ -9,7 +9,7 @@ and the plane's north. Wind and intent are taken at the leader.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees, hypot, isfinite, radians
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
@@ -32,6 +32,9 @@ from relguide.planning.situation import (
     wind_from,
 )
 from relguide.planning.trajectory import LEFT, RIGHT
+
+if TYPE_CHECKING:
+    from relguide.flying.verdicts import PlannerVerdict
 
 MAX_ID = 200
 """Longest accepted `id` [characters]."""
@@ -245,7 +248,9 @@ def plan_to_wire(card: PlanCard, anchor: Anchor) -> dict[str, Any]:
     return path_to_wire(card, anchor)
 
 
-def path_to_wire(card: PlanCard | OtherPathCard, anchor: Anchor) -> dict[str, Any]:
+def path_to_wire(
+    card: "PlanCard | OtherPathCard | PlannerVerdict", anchor: Anchor
+) -> dict[str, Any]:
     """A card with segments as a JSON object, its points as above."""
     answer = to_wire(card)
     match anchor:

@@ -74,7 +74,7 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
     if (known := _MODELS.get(document_type)) is not None:
         return known
     members: dict[str, Any] = {
-        f.wire_name: (_json_type(f.annotation), Field(description=f.doc or None))
+        f.wire_name: (_json_type(f.annotation), Field(f.missing, description=f.doc or None))
         for f in wire_fields(document_type)
     }
     if document_type is PlanCard:

@@ -93,24 +93,35 @@ def check_name(file: Path | str) -> None:
 def _record(
     documents: Iterable[Document], path: Path, sample_rate: float | None
 ) -> Iterator[Document]:
-    from pydantic_core import to_json
-
     with _open(path, "wb") as stream:
-        stream.write(to_json({"format": FORMAT, "version": VERSION}) + b"\n")
+        stream.write(header_line())
         for document, lines in written(documents, sample_rate):
             stream.write(lines)
             yield document
 
 
-def written(
-    documents: Iterable[Document], sample_rate: float | None
-) -> Iterator[tuple[Document, bytes]]:
-    """Each document with the lines that a recording then gets: nothing for a sample left out.
+def recording_of(documents: Iterable[Document], *, sample_rate: float | None = 1.0) -> bytes:
+    """What `record` would write of documents, up to the last of them.
 
     Args:
         documents: of a flight.
-        sample_rate: as in `record`.
+        sample_rate: as in `record` [Hz].
     """
+    lines = (lines for _, lines in written(documents, sample_rate))
+    return header_line() + b"".join(lines)
+
+
+def header_line(version: int = VERSION, **origin: str) -> bytes:
+    """The first line of a recording, and what else it says of where that comes from."""
+    from pydantic_core import to_json
+
+    return to_json({"format": FORMAT, "version": version, **origin}) + b"\n"
+
+
+def written(
+    documents: Iterable[Document], sample_rate: float | None
+) -> Iterator[tuple[Document, bytes]]:
+    """Each document, and the lines that a recording has of it: none, or one, or two at the end."""
     from pydantic_core import to_json
 
     from relguide.contract.wire import dumps, to_wire
@@ -121,11 +132,11 @@ def written(
             case Sample(t=t) if sample_rate is not None:
                 line = to_json(_rounded(to_wire(document))) + b"\n"
                 if t > due - 1e-6:  # rounding of t, far below any step
-                    due, left_out = (floor(t * sample_rate + 1e-6) + 1.0) / sample_rate, b""
                     yield document, line
+                    due, left_out = (floor(t * sample_rate + 1e-6) + 1.0) / sample_rate, b""
                 else:
-                    left_out = line
                     yield document, b""
+                    left_out = line
             case FlightEnded():
                 yield document, left_out + dumps(document) + b"\n"
             case _:

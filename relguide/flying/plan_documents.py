@@ -11,6 +11,8 @@ from relguide.units import Metre, Millisecond, Radian, Second
 
 Direction = Literal["left", "right"]
 Passes = Literal["behind", "ahead"]
+ADDED = {"added": True}
+"""Metadata of a field that documents did not always have: without it they read as its default."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

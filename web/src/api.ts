@@ -37,6 +37,8 @@ const ROOT = "api/v1";
 const PATIENCE = 8000;
 /** The first flight of a new installation waits until the planner is compiled. */
 const FIRST_FLIGHT_PATIENCE = 120_000;
+/** A flight to its end takes a second, and may wait while others fly. */
+const FLOWN_PATIENCE = 90_000;
 /** A long flight on record takes some seconds to be read. */
 const RECORD_PATIENCE = 60_000;
 
@@ -64,6 +66,24 @@ export function planSituation(
 ): Promise<Answer<PlanAnswer & { readonly others?: readonly OtherPathCard[] }>> {
   const query = `include=alternatives,paths&max_ms=${most}`;
   return request("POST", `${ROOT}/plans?${query}`, situation);
+}
+
+/** A plan with Pontryagin's conditions along it, H and the costates. */
+export function checkSituation(situation: SituationBody): Promise<Answer<PlanAnswer>> {
+  return request("POST", `${ROOT}/plans?include=optimality&max_ms=2000`, situation);
+}
+
+/** A scenario flown to its end at once, as a recording. */
+export async function flyScenario(name: string): Promise<Answer<Blob>> {
+  const path = `${ROOT}/scenarios/${encodeURIComponent(name)}/flight`;
+  try {
+    const response = await fetch(path, { signal: AbortSignal.timeout(FLOWN_PATIENCE) });
+    if (response.ok) return { kind: "done", value: await response.blob() };
+    const sentence = sentenceOf(parse(await response.text()), response.status);
+    return { kind: "refused", status: response.status, sentence };
+  } catch {
+    return { kind: "refused", status: 0, sentence: "The server does not answer." };
+  }
 }
 
 /** Regions of words and lines of equal time. */

@@ -2,9 +2,7 @@
 
 import { type Signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { MapBench } from "./map/bench";
-import { HowTo } from "./map/how-to";
-import { PlanMap } from "./map/map";
+import { late } from "./late";
 import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
 import { Alternatives } from "./panels/alternatives";
@@ -16,11 +14,9 @@ import { Announcer, Events } from "./panels/events";
 import { FirstStart } from "./panels/first-start";
 import { FlightControls } from "./panels/flight-controls";
 import { Header } from "./panels/header";
-import { Help } from "./panels/help";
 import { LeaderControls } from "./panels/leader-controls";
 import { OutageNotice } from "./panels/outage";
 import { PlanNumbers } from "./panels/plan";
-import { Records } from "./panels/records";
 import { ScenarioPicker } from "./panels/scenario-picker";
 import { Scene } from "./scene/scene";
 import type { Actions, Session } from "./session";
@@ -30,6 +26,12 @@ import { Timeline } from "./timeline/timeline";
 const NARROW = "(max-width: 1279px)";
 /** Where all stand in one column. */
 const SMALL = "(max-width: 999px)";
+
+const MapBench = late(async () => (await import("./map/bench")).MapBench, "The map is on its way.");
+const PlanMap = late(async () => (await import("./map/map")).PlanMap, "The map is on its way.");
+const HowTo = late(async () => (await import("./map/how-to")).HowTo, "");
+const Help = late(async () => (await import("./panels/help")).Help, "");
+const Records = late(async () => (await import("./panels/records")).Records, "");
 
 export function Cockpit(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
@@ -71,7 +73,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
         ) : (
           <section class="workstation" aria-label="Scene and panels">
             <div class="beside">
-              <Scene session={session} />
+              <Scene session={session} actions={actions} />
               <OutageNotice session={session} actions={actions} />
             </div>
             <div class="panels">
@@ -99,8 +101,8 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
         )}
       </main>
       {!isMap && <Timeline session={session} actions={actions} />}
-      <Help session={session} />
-      <Records session={session} actions={actions} />
+      {session.helpOpen.value && <Help session={session} />}
+      {session.recordsOpen.value && <Records session={session} actions={actions} />}
       <Announcer session={session} />
     </>
   );

@@ -2,6 +2,7 @@
 
 import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
+import type { Alarm, Numbers } from "./store/numbers";
 
 /** A titled panel. `name` is its place in the grid and its class. */
 export function Panel(props: {
@@ -10,11 +11,13 @@ export function Panel(props: {
   aside?: ComponentChildren;
   /** Whether its body may scroll: then it can be reached by keyboard. */
   scrolls?: boolean;
+  /** Set while the minimum separation is lost, or will be; words in it say the same. */
+  alarm?: Alarm["level"];
   children: ComponentChildren;
 }) {
   const id = `panel-${props.name}`;
   return (
-    <section class={`panel ${props.name}`} aria-labelledby={id}>
+    <section class={`panel ${props.name} ${props.alarm ?? ""}`} aria-labelledby={id}>
       <header>
         <h2 id={id}>{props.title}</h2>
         {props.aside}
@@ -26,19 +29,34 @@ export function Panel(props: {
   );
 }
 
+/** Over all else in a panel: the minimum separation is lost, or will be. */
+export function AlarmLine({ numbers }: { numbers: Numbers }) {
+  const { alarm, separation, minSeparation } = numbers;
+  if (alarm === null) return null;
+  return (
+    <p class={`alarm ${alarm.level}`}>
+      <b>{alarm.text}</b> {separation} NM, minimum {minSeparation} NM
+    </p>
+  );
+}
+
 /** One labelled number. `tone` says what it means; it is never the only sign of it. */
 export function Reading(props: {
   label: string;
   value: string;
   unit?: string;
   note?: string;
+  /** What the value means, in plain words. */
+  title?: string;
   tone?: "value" | "caution" | "alert" | "plain";
 }) {
   return (
     <div class="reading">
       <dt>{props.label}</dt>
       <dd>
-        <span class={`figure ${props.tone ?? "value"}`}>{props.value}</span>
+        <span class={`figure ${props.tone ?? "value"}`} title={props.title}>
+          {props.value}
+        </span>
         {props.unit !== undefined && <span class="unit">{props.unit}</span>}
         {props.note !== undefined && <span class="note">{props.note}</span>}
       </dd>

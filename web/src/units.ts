@@ -44,12 +44,15 @@ export function formatMiles(distance: number, decimals = 1): string {
     .replace("-", "−");
 }
 
-/** A duration or clock time as mm:ss (minutes may pass 99). `time` [s] */
+/** A duration or a flight time, as everywhere on the page: mm:ss, from an hour on h:mm:ss. `time` [s] */
 export function formatClock(time: number): string {
   const seconds = Math.round(Math.abs(time));
   const sign = time < 0 && seconds > 0 ? "−" : "";
-  const minutes = String(Math.floor(seconds / 60)).padStart(2, "0");
-  return `${sign}${minutes}:${String(seconds % 60).padStart(2, "0")}`;
+  const hours = Math.floor(seconds / 3600);
+  const [minutes, rest] = [Math.floor(seconds / 60) % 60, seconds % 60].map((each) =>
+    String(each).padStart(2, "0"),
+  );
+  return `${sign}${hours > 0 ? `${hours}:` : ""}${minutes}:${rest}`;
 }
 
 /** A time typed as h:mm:ss, mm:ss or seconds [s]; null if it is none. */

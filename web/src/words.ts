@@ -22,8 +22,8 @@ export const ELEMENTS: readonly Element[] = [
   ),
   element(
     "atc",
-    "Validation",
-    "of the path you accepted: sent, valid, or rejected; the service stands for air traffic control",
+    "Order",
+    "what became of your last one: SENT until the service answers, ACCEPTED, or REJECTED",
   ),
   element("message", "Message", "the most urgent one; an arrow if there are more"),
   element(
@@ -54,6 +54,12 @@ export const ELEMENTS: readonly Element[] = [
     "key-leader-symbol",
   ),
   element(
+    "other",
+    "Other flight",
+    "the one this is compared with: its path so far dashed, its aircraft broken; the path of this one thin",
+    "key-other",
+  ),
+  element(
     "offscale",
     "Leader off the map",
     "half a symbol in its direction, with bearing and distance",
@@ -74,7 +80,7 @@ export const ELEMENTS: readonly Element[] = [
     "how far own ship is beside the leader's route, and on which side",
   ),
   element("trend", "Trend", "where own ship will be if it turns on as now; a tick each 30 s"),
-  element("trackline", "Track line", "straight on, while no path is flown"),
+  element("trackline", "Track line", "straight on, while no path is shown"),
   element("lubber", "Nose", "the mark over it: where the heading is read"),
   element(
     "closest",

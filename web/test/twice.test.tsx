@@ -98,7 +98,7 @@ function standing(place: Element): Record<string, (string | undefined)[]> {
     "ground speed": [gs, own("GS")],
     "true airspeed": [tas, own("TAS")],
     "commanded speed": [
-      mode.flatMap((text) => text.match(/^SPD (\d+)/)?.[1] ?? [])[0],
+      mode.flatMap((text) => text.match(/^(?:RG )?SPD (\d+)/)?.[1] ?? [])[0],
       texts(".commanded b")[1]?.replace(" kt", ""),
     ],
   };

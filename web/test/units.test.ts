@@ -41,12 +41,15 @@ describe("units", () => {
     expect(formatLevel(35000 * FT)).toBe("FL350");
   });
 
-  test("times carry seconds into minutes", () => {
-    expect([0, 59.6, 61, 3725, -5, -0.2].map(formatClock)).toEqual([
+  test("times carry seconds into minutes, and minutes into hours", () => {
+    expect([0, 59.6, 61, 3599.4, 3599.6, 3725, 26443, -5, -0.2].map(formatClock)).toEqual([
       "00:00",
       "01:00",
       "01:01",
-      "62:05",
+      "59:59",
+      "1:00:00",
+      "1:02:05",
+      "7:20:43",
       "−00:05",
       "00:00",
     ]);

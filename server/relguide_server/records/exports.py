@@ -13,7 +13,7 @@ from typing import Any, get_origin
 import orjson
 
 from relguide.contract.geojson import line_geometry
-from relguide.contract.recorder import FORMAT
+from relguide.contract.recorder import header_line
 from relguide.contract.wire import wire_fields
 from relguide.flying.aircraft_documents import AircraftSample, GuidanceSample
 from relguide.planning.extras import need
@@ -65,7 +65,7 @@ def as_recording(origin: Origin, form: int, chunks: Iterable[Lines]) -> Iterator
         form: version of the documents' form.
         chunks: the documents as JSON lines.
     """
-    yield orjson.dumps({"format": FORMAT, "version": form, **asdict(origin)}) + b"\n"
+    yield header_line(form, **asdict(origin))
     for lines in chunks:
         yield b"".join(lines)
 

@@ -8,11 +8,11 @@ import { READOUTS } from "./view";
 const COLOURS: Record<Picture["order"], Colour> = {
   "": "label",
   SENT: "label",
-  VALID: "value",
+  ACCEPTED: "armed",
   REJECTED: "caution",
 };
 
-/** What became of the path that the crew accepted, under the modes. */
+/** What became of the crew's last order, under the modes. */
 export function OrderStatus({ shown }: LayerProps) {
   const order = usePart(shown, (picture) => picture.order);
   const colour = useComputed(() => COLOURS[order.value]);

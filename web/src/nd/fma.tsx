@@ -12,16 +12,18 @@ export function ModeStrip({ shown }: LayerProps) {
   const modes = usePart(shown, (picture) => picture.style);
   const lateral = useComputed(() => modes.value?.lateral.now ?? "");
   const lateralNext = useComputed(() => modes.value?.lateral.next ?? "");
+  const commander = usePart(shown, (picture) => picture.speed);
   const speed = useComputed(() =>
-    modes.value === null ? "" : `${modes.value.speed.now} ${numbers.value.commandedSpeed}`,
+    commander.value.now === "" ? "" : `${commander.value.now} ${numbers.value.commandedSpeed}`,
   );
-  const speedNext = useComputed(() => modes.value?.speed.next ?? "");
+  const speedNext = useComputed(() => commander.value.next);
   const level = useComputed(() => (modes.value === null ? "" : "ALT"));
   const spacing = useComputed(() =>
     numbers.value.isSpacing ? `D ${numbers.value.slotDistance}` : "",
   );
   const pilot = useComputed(() => (modes.value === null ? "" : "AP1"));
-  const boxed = usePart(shown, (picture) => picture.boxed);
+  const isNewMode = usePart(shown, (picture) => picture.boxed);
+  const isNewSpeed = usePart(shown, (picture) => picture.speed.boxed);
   const middle = (column: number) => COLUMN * (column + 0.5);
   const { height, width } = READOUTS.fma;
   return (
@@ -52,9 +54,13 @@ export function ModeStrip({ shown }: LayerProps) {
         anchor="middle"
         size={20}
       />
-      {boxed.value && (
-        <rect class="nd-box" x={COLUMN * 2 + 8} y={3} width={COLUMN - 16} height={26} />
-      )}
+      {isNewSpeed.value && <Box column={0} />}
+      {isNewMode.value && <Box column={2} />}
     </g>
   );
+}
+
+/** The white frame round a mode that is new. */
+function Box({ column }: { column: number }) {
+  return <rect class="nd-box" x={COLUMN * column + 8} y={3} width={COLUMN - 16} height={26} />;
 }

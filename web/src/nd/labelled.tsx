@@ -12,6 +12,7 @@ import { forecastIndex, pointsAfter } from "../store/forecast";
 import { captureLabel } from "./capture";
 import { circleLabel } from "./circle";
 import { closestLabel } from "./closest";
+import { ghostLabels } from "./ghost";
 import { intentLabels } from "./intent";
 import { type Label, LINE_HEIGHT, type Placement, placeLabels } from "./labels";
 import { type LayerProps, usePart } from "./layer";
@@ -34,6 +35,7 @@ function labelsOf(props: LayerProps): Label[] {
     proposalLabel(props),
     closestLabel(props),
     circleLabel(props),
+    ...ghostLabels(props),
     ...turnLabels(props),
     ...intentLabels(props),
     ...minuteLabels(props),
@@ -48,6 +50,8 @@ const IDS = [
   "proposal",
   "closest",
   "circle",
+  "other",
+  "other leader",
   ...[1, 2, 3, 4, 5, 6, 7, 8].map((i) => `T${i}`),
   "intent",
   ...[0, 1, 2].map((i) => `leg ${i}`),

@@ -14,6 +14,7 @@ import { CrossTrack } from "./crosstrack";
 import { FinalTrack } from "./final";
 import { Flags } from "./flags";
 import { ModeStrip } from "./fma";
+import { OtherFlight } from "./ghost";
 import { LeaderHistory } from "./history";
 import { LeaderIntent } from "./intent";
 import { CarriedLabels, Labels } from "./labelled";
@@ -48,7 +49,7 @@ interface Sheet {
 
 /** The world, bottom to top, by what each part of it moves with. */
 const MAP_SHEETS: readonly Sheet[] = [
-  { by: "map", layers: [LeaderIntent, LeaderHistory] },
+  { by: "map", layers: [OtherFlight, LeaderIntent, LeaderHistory] },
   { by: "leader", layers: [SeparationCircle, MarginCircle] },
   {
     by: "map",

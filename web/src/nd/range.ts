@@ -34,14 +34,58 @@ export function fittingRange(
   places: readonly Place[],
   present: Range,
 ): Range {
-  const isAhead = (place: Place) =>
-    mode === "ROSE" || Math.abs(offNose(pose, bearing(pose, place))) < BEHIND;
+  const isAhead = (place: Place) => isBeforeNose(mode, pose, place);
   const ahead = places.filter(isAhead);
   const [leader] = places;
   const enough = rangeOf(mode, pose, ahead, places, present);
   if (leader === undefined || isAhead(leader)) return enough;
   const both = rangeOf(mode, pose, [leader, ...ahead], places, present);
   return ahead.length === 0 || both <= FOR_LEADER * enough ? both : enough;
+}
+
+function isBeforeNose(mode: DisplayMode, pose: Pose, place: Place): boolean {
+  return mode === "ROSE" || Math.abs(offNose(pose, bearing(pose, place))) < BEHIND;
+}
+
+/** Whether all places that a range can show are on the map. */
+export function areInSight(
+  mode: DisplayMode,
+  pose: Pose,
+  places: readonly Place[],
+  range: Range,
+): boolean {
+  const layout = layoutOf(mode, range);
+  return places
+    .filter((place) => isBeforeNose(mode, pose, place))
+    .every((place) => onMap(layout, project(layout, pose, place)));
+}
+
+/** The circle of least separation is at least so large where it must be told apart [px]. */
+const SMALLEST_CIRCLE = 20;
+
+/** The largest range in which the circle of least separation [m] is still large enough to steer by. */
+export function largestLegible(mode: DisplayMode, minSeparation: number): Range {
+  const isLegible = (range: Range) =>
+    minSeparation * layoutOf(mode, range).scale >= SMALLEST_CIRCLE;
+  return RANGES.findLast(isLegible) ?? RANGES[0];
+}
+
+/** Between two steps of the range, and where what is near is off the map [s]. */
+const STEP_AFTER = 4;
+const STEP_AT_ONCE = 1;
+
+/**
+ * The range one step nearer to the one that fits: by single steps with some seconds between, so that a
+ * plan that changes does not throw the picture about.
+ */
+export function stepToward(
+  fitting: Range,
+  present: Range,
+  { since, isUrgent }: { readonly since: number; readonly isUrgent: boolean },
+): Range {
+  if (since < (isUrgent ? STEP_AT_ONCE : STEP_AFTER)) return present;
+  const at = RANGES.indexOf(present);
+  return RANGES[at + Math.sign(RANGES.indexOf(fitting) - at)] ?? present;
 }
 
 /** The smallest range with what is wanted of all places. */

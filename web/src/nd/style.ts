@@ -21,6 +21,8 @@ export const LINES = {
   proposed: { colour: "proposed", width: 3, dash: "15 12" },
   armed: { colour: "armed", width: 3, dash: "15 12" },
   ghost: { colour: "superseded", width: 1.5, dash: "3 6" },
+  other: { colour: "superseded", width: 2, dash: "9 6" },
+  beside: { colour: "superseded", width: 1.5, dash: "" },
   superseded: { colour: "superseded", width: 2.5, dash: "2 11" },
   final: { colour: "plan", width: 1.75, dash: "20 9" },
   declared: { colour: "leader", width: 2, dash: "12 4 2 4" },

@@ -2,7 +2,7 @@
 
 import { useSignal } from "@preact/signals";
 import { Dial } from "../dial";
-import { Panel } from "../parts";
+import { AlarmLine, Panel } from "../parts";
 import type { Actions, Session } from "../session";
 import { referenceText } from "../store/reading";
 import { formatBank, formatHeading, formatKnots, formatLevel } from "../units";
@@ -20,7 +20,9 @@ const ROWS: readonly (readonly [string, string, (aircraft: AircraftSample) => st
 export function Aircraft(props: { session: Session; actions: Actions }) {
   // The dial shows what is flown until it is used.
   const heading = useSignal<number | null>(null);
-  const { sample, commandedSpeed } = props.session.shown.numbers.value;
+  const numbers = props.session.shown.numbers.value;
+  const { sample, leader, commandedSpeed } = numbers;
+  const isGuided = sample?.engagement === "engaged";
   const started = props.session.flight.read.value.started;
   const idents = [started?.pursuer.ident ?? "Own", started?.leader.ident ?? "Leader"] as const;
   const heads = (
@@ -30,7 +32,14 @@ export function Aircraft(props: { session: Session; actions: Actions }) {
     </span>
   );
   return (
-    <Panel name="aircraft" title="Aircraft" aside={heads}>
+    <Panel
+      name="aircraft"
+      title="Aircraft"
+      aside={heads}
+      scrolls
+      {...(numbers.alarm !== null && { alarm: numbers.alarm.level })}
+    >
+      <AlarmLine numbers={numbers} />
       <table class="states">
         <thead class="visually-hidden">
           <tr>
@@ -47,17 +56,17 @@ export function Aircraft(props: { session: Session; actions: Actions }) {
                 {unit !== "" && <span class="unit">{unit}</span>}
               </th>
               <td>{sample === null ? "––" : text(sample.pursuer)}</td>
-              <td>{sample === null ? "––" : text(sample.leader)}</td>
+              <td>{leader === null ? "––" : text(leader)}</td>
             </tr>
           ))}
         </tbody>
       </table>
-      <p class={`commanded ${sample?.engagement === "engaged" ? "" : "selected"}`}>
-        <span>{sample?.engagement === "engaged" ? "Guidance" : "Selected"}</span>
+      <p class={`commanded ${isGuided ? "" : "selected"}`}>
+        <span>{isGuided ? "Guidance" : "Selected"}</span>
         <b>{sample === null ? "––" : referenceText(sample.reference)}</b>
         <b>{sample === null ? "" : `${commandedSpeed} kt`}</b>
       </p>
-      {sample !== null && sample.engagement !== "engaged" && (
+      {sample !== null && !isGuided && (
         <Dial
           label="Own heading"
           unit="°"

@@ -2,10 +2,12 @@
 
 import { Panel } from "../parts";
 import type { Session } from "../session";
-import { alternativeSentence, alternativeTime } from "../store/reading";
+import { alternativeSentence, alternativeTime, wordTitle } from "../store/reading";
 import type { Guidance } from "../store/states";
 import { formatClock } from "../units";
 import type { Alternative } from "../wire";
+
+const IDEAL = "as planned, with turns and braking at once: flown, each takes some seconds more";
 
 /** What becomes of the path that is shown, where it is not flown. */
 const STATE: Partial<Record<Guidance, string>> = { proposed: "proposed", armed: "accepted" };
@@ -18,7 +20,11 @@ export function Alternatives(props: { session: Pick<Session, "shown"> }) {
     <Panel
       name="alternatives"
       title="Alternatives"
-      aside={<span class="hint">as planned</span>}
+      aside={
+        <span class="hint" title={IDEAL}>
+          ideal times
+        </span>
+      }
       scrolls
     >
       {plan === undefined ? (
@@ -35,13 +41,17 @@ export function Alternatives(props: { session: Pick<Session, "shown"> }) {
           </thead>
           <tbody>
             <tr class={STATE[state] ?? "flown"}>
-              <th scope="row">{plan.word}</th>
+              <th scope="row" title={wordTitle(plan.word)}>
+                {plan.word}
+              </th>
               <td>{formatClock(plan.time_to_converge_s)}</td>
               <td>{STATE[state] ?? "flown"}</td>
             </tr>
             {(plan.alternatives ?? []).map((alternative) => (
               <tr key={alternativeKey(alternative)}>
-                <th scope="row">{alternative.word}</th>
+                <th scope="row" title={wordTitle(alternative.word)}>
+                  {alternative.word}
+                </th>
                 <td>{alternativeTime(alternative)}</td>
                 <td class={alternative.rejected}>{alternativeSentence(alternative, plan)}</td>
               </tr>

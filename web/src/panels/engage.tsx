@@ -15,6 +15,13 @@ interface Steps {
 /** Said of a proposal that has taken the place of the accepted path. */
 const LAPSED = "The path has become another one since you accepted it: accept it again.";
 
+/** Why a step is asked for that the crew has done before; "" if it has not. */
+function againText(hasLapsed: boolean, droppedAt: string): string {
+  if (droppedAt !== "")
+    return `Guidance was engaged until the leader was not heard of any more, at ${droppedAt}. Two steps engage it again: Accept, then Engage.`;
+  return hasLapsed ? LAPSED : "";
+}
+
 const STEPS: Record<Guidance, Steps> = {
   off: {
     says: "Designate the leader: here, or by a click on it.",
@@ -38,35 +45,51 @@ const STEPS: Record<Guidance, Steps> = {
   escape: { says: "Guidance turns away from the leader.", next: null, back: "Disconnect" },
   infeasible: { says: "No path to its slot now; it is tried again.", next: null, back: "Cancel" },
   unable: { says: "No path to fly now; it is tried again.", next: null, back: "Disconnect" },
-  data_lost: { says: "Nothing is heard of the leader. You fly.", next: null, back: "Cancel" },
+  data_lost: {
+    says: "Nothing is heard of the leader. The autopilot holds the heading that you select.",
+    next: null,
+    back: "Cancel",
+  },
 };
 
 export function Engage(props: { session: Session; actions: Actions }) {
-  const { session, actions } = props;
-  const { state, readAt, hasLapsed } = session.shown.numbers.value;
-  const { says, next, back } = STEPS[state];
-  const absent = readAt === null || !isFlying(session);
+  const { state, hasLapsed, droppedAt } = props.session.shown.numbers.value;
+  const again = state === "proposed" ? againText(hasLapsed, droppedAt) : "";
   return (
     <Panel name="engage" title="Relative guidance">
-      <p class="hint">{state === "proposed" && hasLapsed ? LAPSED : says}</p>
+      <p class={`hint ${again === "" ? "" : "again"}`}>
+        {again === "" ? STEPS[state].says : again}
+      </p>
       <div class="row">
-        <button
-          type="button"
-          class="primary grow"
-          disabled={absent || next === null}
-          onClick={() => next !== null && actions.engage(next.to)}
-        >
-          {next?.text ?? "Engage"}
-        </button>
-        <button
-          type="button"
-          class="grow"
-          disabled={absent || back === ""}
-          onClick={() => actions.engage("off")}
-        >
-          {back === "" ? "Cancel" : back}
-        </button>
+        <EngageButtons {...props} />
       </div>
     </Panel>
+  );
+}
+
+/** The next step, and the way back. */
+export function EngageButtons({ session, actions }: { session: Session; actions: Actions }) {
+  const { state, readAt } = session.shown.numbers.value;
+  const { next, back } = STEPS[state];
+  const absent = readAt === null || !isFlying(session);
+  return (
+    <>
+      <button
+        type="button"
+        class="primary grow"
+        disabled={absent || next === null}
+        onClick={() => next !== null && actions.engage(next.to)}
+      >
+        {next?.text ?? "Engage"}
+      </button>
+      <button
+        type="button"
+        class="grow"
+        disabled={absent || back === ""}
+        onClick={() => actions.engage("off")}
+      >
+        {back === "" ? "Cancel" : back}
+      </button>
+    </>
   );
 }

@@ -2,7 +2,6 @@
 
 import { Panel } from "../parts";
 import type { Session } from "../session";
-import { MODE_NAMES, STATE_NAMES } from "../store/reading";
 import type { Message } from "../store/types";
 import { formatClock } from "../units";
 
@@ -39,28 +38,17 @@ export function Events(props: { session: Session }) {
   );
 }
 
-/** Mode changes, alerts and the loss of a plan, spoken without taking the focus. */
+/** What holds now, spoken without taking the focus. */
 export function Announcer(props: { session: Session }) {
-  const { engagement, mode, promise, unavailable, unable, alerts, lost } =
-    props.session.flight.read.value;
-  const { state } = props.session.shown.numbers.value;
-  const polite: string[] = [];
-  if (state !== "off") polite.push(`${STATE_NAMES[state]}.`);
-  if (engagement !== null) polite.push(engagement.message);
-  const urgent: string[] = [];
-  if (mode !== null) polite.push(`Mode ${MODE_NAMES[mode.mode]}. ${mode.message}`);
-  if (promise !== null) polite.push(promise.message);
-  if (unavailable !== null) polite.push(`No plan. ${unavailable.answer.message}`);
-  for (const alert of alerts) (alert.level === "advisory" ? polite : urgent).push(alert.message);
-  if (unable !== null) urgent.push(`Unable. ${unable.message}`);
-  if (state === "data_lost") urgent.push("Nothing is heard of the leader.");
-  if (lost !== null) urgent.push(`Separation lost at ${formatClock(lost.t_s)}. ${lost.cause}`);
+  const { polite, assertive } = props.session.shown.spoken.value;
   return (
     <div class="visually-hidden">
       <p role="status" data-testid="announcer">
-        {polite.join(" ")}
+        {polite}
       </p>
-      <p aria-live="assertive">{urgent.join(" ")}</p>
+      <p aria-live="assertive" aria-atomic="true">
+        {assertive}
+      </p>
     </div>
   );
 }

@@ -1,13 +1,12 @@
-/** How the flight goes on: play or pause, restart, rate; and what became of the last command. */
+/** What is flown, to begin it anew or end it; and what became of the last command. */
 
-import { Choice, Icon, Panel } from "../parts";
-import { type Actions, type Feedback, isFlying, RATES, type Session } from "../session";
+import { Icon, Panel } from "../parts";
+import { type Actions, type Feedback, isFlying, type Session } from "../session";
 
 export function FlightControls(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
-  const { scenarios, status, flight, feedback } = session;
-  const { rate, paused } = flight.clock.value;
-  const ended = flight.clock.value.ended || !isFlying(session);
+  const { scenarios, status, feedback } = session;
+  const ended = !isFlying(session);
   const flown = status.value?.scenario || null; // empty for a situation of one's own
   const description =
     scenarios.value.find((scenario) => scenario.name === flown)?.description ?? "";
@@ -15,15 +14,6 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
     <Panel name="controls" title="Flight">
       {description !== "" && <p class="hint">{description}</p>}
       <div class="row">
-        <button
-          type="button"
-          class="primary grow"
-          disabled={ended}
-          onClick={() => (paused ? actions.play() : actions.pause())}
-        >
-          <Icon name={paused ? "play" : "pause"} />
-          {paused ? "Play" : "Pause"}
-        </button>
         <button
           type="button"
           class="grow"
@@ -37,13 +27,6 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
           End
         </button>
       </div>
-      <Choice
-        label="Simulated seconds per second"
-        options={RATES}
-        chosen={RATES.find((offered) => offered === rate) ?? null}
-        text={(offered) => `×${offered}`}
-        choose={actions.setRate}
-      />
       <FeedbackLine feedback={feedback.value} />
     </Panel>
   );

@@ -9,7 +9,8 @@ import { formatHeading, KT } from "../units";
 
 export function LeaderControls(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
-  const leader = session.shown.numbers.value.sample?.leader;
+  const { sample, leader: heard } = session.shown.numbers.value;
+  const leader = sample?.leader;
   const ident = session.flight.read.value.started?.leader.ident ?? "";
   // A leader that is called so needs not be called so twice.
   const named =
@@ -23,12 +24,12 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
   const selectedKnots = knots.value ?? knotsNow;
   const known = session.flight.read.value.route?.intent_known ?? null;
   const absent = leader === undefined || !isFlying(session);
-  const isHeard = ageOf(session.shown.numbers.value.sample?.leader_age_s ?? 0) === "fresh";
+  const isHeard = ageOf(sample?.leader_age_s ?? 0) === "fresh";
   return (
     <Panel name="leader" title="Leader" {...named}>
       <p class="caption">
         <span>Heading</span>
-        <span>now {absent ? "––" : `${formatHeading(headingNow)}°`}</span>
+        <span>now {heard === null ? "––" : `${formatHeading(headingNow)}°`}</span>
       </p>
       <Dial
         label="Leader's heading"
@@ -72,7 +73,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
       </div>
       <p class="caption">
         <span>TAS</span>
-        <span>now {absent ? "––" : `${knotsNow} kt`}</span>
+        <span>now {heard === null ? "––" : `${knotsNow} kt`}</span>
         <button
           type="button"
           disabled={absent}

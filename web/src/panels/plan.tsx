@@ -1,9 +1,9 @@
 /** The plan in numbers: when, how far, which turns, how close, and what is proved of it. */
 
-import { Panel, Reading } from "../parts";
+import { AlarmLine, Panel, Reading } from "../parts";
 import type { Session } from "../session";
 import type { LeastAhead, Numbers } from "../store/numbers";
-import { countTurns, plannerName, proofSentence, STATE_NAMES } from "../store/reading";
+import { countTurns, plannerName, proofSentence, STATE_NAMES, wordTitle } from "../store/reading";
 import { formatClock, formatMiles } from "../units";
 import type { LinkResult } from "../wire";
 
@@ -32,7 +32,9 @@ export function PlanNumbers({ session, remark }: Given) {
       name="plan"
       title="Convergence"
       aside={<span class={`mode-name ${numbers.state}`}>{STATE_NAMES[numbers.state]}</span>}
+      {...(numbers.alarm !== null && { alarm: numbers.alarm.level })}
     >
+      <AlarmLine numbers={numbers} />
       {flight.read.value.result !== null ? (
         <Outcome ended={flight.read.value.result} />
       ) : (
@@ -41,10 +43,7 @@ export function PlanNumbers({ session, remark }: Given) {
       <dl class="readings">
         {plan !== null && !isClose && <PathReadings plan={plan} numbers={numbers} />}
         <SpacingReadings numbers={numbers} isClose={isClose} />
-        <SafetyReadings
-          numbers={numbers}
-          isIntentKnown={flight.read.value.route?.intent_known ?? null}
-        />
+        <SafetyReadings numbers={numbers} />
       </dl>
       {plan !== null && (
         <p class="proof">{proofSentence(plan.plan.optimality, plan.plan.time_to_converge_s)}</p>
@@ -55,14 +54,15 @@ export function PlanNumbers({ session, remark }: Given) {
 }
 
 const HEADLINES: Partial<Record<Numbers["state"], string>> = {
-  proposed: "Proposed",
-  armed: "Accepted",
+  proposed: "Proposed, as flown",
+  armed: "Accepted, as flown",
 };
+const FLOWN = "as the aircraft will really fly it: it rolls into its turns and brakes for the slot";
 
 /** The one number that matters now. */
 function Headline(props: { numbers: Numbers; isJoined: boolean }) {
-  const { trouble, toJoin, joinsAt, separation, state } = props.numbers;
-  if (trouble !== null) {
+  const { alarm, trouble, toJoin, joinsAt, separation, state } = props.numbers;
+  if (trouble !== null && alarm?.level !== "alert") {
     return (
       <div class="headline caution">
         <span class="headline-label">{trouble.label}</span>
@@ -70,17 +70,20 @@ function Headline(props: { numbers: Numbers; isJoined: boolean }) {
       </div>
     );
   }
-  if (toJoin !== "") {
+  if (toJoin !== "" && alarm?.level !== "alert") {
     return (
       <div class="headline">
-        <span class="headline-label">{HEADLINES[state] ?? "Time to converge"}</span>
+        <span class="headline-label" title={FLOWN}>
+          {HEADLINES[state] ?? "Time to join, as flown"}
+        </span>
         <span class="headline-figure">{toJoin}</span>
         <span class="headline-note">joins at {joinsAt}</span>
       </div>
     );
   }
+  const tone = alarm?.level ?? "";
   return (
-    <div class="headline">
+    <div class={`headline ${tone}`}>
       <span class="headline-label">{props.isJoined ? "Joined" : "Separation"}</span>
       <span class="headline-figure">{separation}</span>
       <span class="headline-note">NM to the leader</span>
@@ -111,6 +114,7 @@ function PathReadings(props: { plan: NonNullable<Numbers["plan"]>; numbers: Numb
     <>
       <Reading
         label="Path"
+        title={wordTitle(plan.word)}
         value={plan.word}
         note={`${formatMiles(plan.length_m)} NM, ${turns} turn${turns === 1 ? "" : "s"}`}
       />
@@ -124,11 +128,18 @@ function PathReadings(props: { plan: NonNullable<Numbers["plan"]>; numbers: Numb
 }
 
 function SpacingReadings(props: { numbers: Numbers; isClose: boolean }) {
-  const { slotDistance, separation, closureWords, spacingWords, crossTrackWords } = props.numbers;
+  const { slotDistance, separation, closureWords, spacingWords, crossTrackWords, alarm } =
+    props.numbers;
   return (
     <>
       <Reading label="D required" value={slotDistance} unit="NM" />
-      <Reading label="d now" value={separation} unit="NM" note={closureWords} />
+      <Reading
+        label="d now"
+        value={separation}
+        unit="NM"
+        note={closureWords}
+        {...(alarm !== null && { tone: alarm.level })}
+      />
       {props.isClose && <Reading label="Spacing error" value={spacingWords} />}
       {props.isClose && <Reading label="Cross-track" value={crossTrackWords} />}
     </>
@@ -140,9 +151,9 @@ function whenClosest({ when, left }: LeastAhead): string {
   return { ahead: `in ${left}`, passed: "passed", at_join: "once joined" }[when];
 }
 
-function SafetyReadings(props: { numbers: Numbers; isIntentKnown: boolean | null }) {
+function SafetyReadings(props: { numbers: Numbers }) {
   const { least, plan, leastSoFar, wasLost, minSeparation, margin } = props.numbers;
-  const known = props.isIntentKnown;
+  const known = props.numbers.isIntentKnown;
   return (
     <>
       {least !== null && (
@@ -167,8 +178,8 @@ function SafetyReadings(props: { numbers: Numbers; isIntentKnown: boolean | null
       )}
       <Reading
         label="Leader intent"
-        value={known === null ? "––" : known ? "YES" : "NO"}
-        tone={known === false ? "plain" : "value"}
+        value={known === null ? "unknown" : known ? "YES" : "NO"}
+        tone={known === true ? "value" : "plain"}
       />
       {plan !== null && (
         <Reading

@@ -12,6 +12,7 @@ import { createHistory, type History, momentAt } from "./history";
 import { blend, expected, type Gap, gap, moveSample, NO_GAP } from "./motion";
 import { type PairSample, pairSample } from "./pair";
 import { NOTHING_KNOWN } from "./reduce";
+import { newsFor } from "./states";
 import type { Connection, Flight, Link, Moment } from "./types";
 
 /** A flight's signals and what happens to them. */
@@ -51,6 +52,7 @@ export const LOST_AGE = 5;
 export const NO_MOMENT: Moment = {
   ...NOTHING_KNOWN,
   sample: null,
+  before: null,
   joinedAt: Number.POSITIVE_INFINITY,
   belowAt: Number.NEGATIVE_INFINITY,
   trail: { pursuer: [], leader: [] },
@@ -177,7 +179,7 @@ export function createFlightStore(): FlightStore {
     const { rate, ended } = flight.clock.value;
     const dataAge = Number.isFinite(fresh) ? Math.max(0, (wall - fresh) / 1000) : 0;
     const known = history.knownAt(Number.POSITIVE_INFINITY);
-    const seen = history.seenAt(Number.POSITIVE_INFINITY);
+    const seen = history.seenAt(Number.POSITIVE_INFINITY, newsFor(rate));
     const whole = { ...known, ...seen, rate, dataAge, ended, isSent: false };
     if (newest === null || clock === null) {
       // the end of a recording

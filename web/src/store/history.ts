@@ -7,6 +7,7 @@ import type { Document } from "../wire";
 import { createKnots, type Knots } from "./knots";
 import { type PairSample, pairCard, pairSample } from "./pair";
 import { NOTHING_KNOWN, reduce } from "./reduce";
+import { newsFor } from "./states";
 import { trailTimes } from "./trail";
 import type { Known, Moment, Seen } from "./types";
 
@@ -23,8 +24,8 @@ export interface History {
   merge(documents: readonly Document[]): void;
   /** What was known at flight time `t` [s]; all that is known at +∞. */
   knownAt(t: number): Known;
-  /** What the samples said up to flight time `t` [s]. */
-  seenAt(t: number): Seen;
+  /** What the samples said up to flight time `t` [s]; what changed in the last `news` seconds is news. */
+  seenAt(t: number, news: number): Seen;
 }
 
 export function createHistory(): History {
@@ -118,8 +119,9 @@ export function createHistory(): History {
       trailed = null;
     },
     knownAt,
-    seenAt: (t) => ({
+    seenAt: (t, news) => ({
       sample: knots.sampleAt(Math.min(t, knots.span?.last ?? 0)),
+      before: knots.sampleAt(Math.min(t, knots.span?.last ?? 0) - news),
       joinedAt: knots.joinedAt(t),
       belowAt: knots.belowAt(t),
       trail: trailAt(t),
@@ -141,7 +143,7 @@ export interface Look {
 
 /** A flight at time `t` [s], from its documents alone: what a recording shows. */
 export function momentAt(history: History, t: number, { rate = 1 }: Look = {}): Moment {
-  const seen = history.seenAt(t);
+  const seen = history.seenAt(t, newsFor(rate));
   const known = history.knownAt(t);
   return {
     ...known,

@@ -4,7 +4,16 @@ import { formatMiles } from "../units";
 import type { Alert, AlertSubject, Mode, PlanReason, Reason, UnableReason } from "../wire";
 import type { Colour } from "./colours";
 import { AGE, GUIDANCE } from "./state-styles";
-import { age, type Guidance, guidance, hasLapsed, isRecent, leaderAge, separation } from "./states";
+import {
+  age,
+  type Guidance,
+  guidance,
+  hasLapsed,
+  isRecent,
+  leaderAge,
+  separation,
+  wasDropped,
+} from "./states";
 import type { Moment } from "./types";
 
 export interface Notice {
@@ -132,6 +141,7 @@ function promptOf(flight: Moment, state: Guidance): Notice | null {
       return { level: "advice", text: `LDR ${ident} ${apart} NM` };
     }
     case "proposed":
+      if (wasDropped(flight)) return { level: "prompt", text: "RG WAS ON – ACCEPT, ENGAGE" };
       if (hasLapsed(flight)) return { level: "prompt", text: "PATH CHANGED – ACCEPT AGAIN" };
       return { level: "prompt", text: "CONV PROPOSED – CONFIRM" };
     case "armed":

@@ -13,7 +13,7 @@ import {
   KT,
   NM,
 } from "../units";
-import type { PathPoint } from "../wire";
+import type { AircraftSample, PathPoint } from "../wire";
 import {
   closestApproach,
   committedPoint,
@@ -25,9 +25,20 @@ import {
   timeToJoin,
 } from "./committed";
 import type { PairSample } from "./pair";
-import { closureText, crossTrackText, spacingText } from "./reading";
+import { closureText, crossTrackText, spacingText, startLower, unableSentence } from "./reading";
 import { AGE, GUIDANCE } from "./state-styles";
-import { age, ageOf, type Guidance, guidance, hasLapsed, leaderAge } from "./states";
+import {
+  age,
+  ageOf,
+  type Guidance,
+  guidance,
+  hasLapsed,
+  isRecent,
+  leaderAge,
+  NEWS,
+  separation,
+  wasDropped,
+} from "./states";
 import type { Moment } from "./types";
 
 /** The next turn, or the join: bearing, distance and how long until then. */
@@ -36,7 +47,7 @@ export interface NextPoint {
   /** Bearing in three digits. */
   readonly bearing: string;
   readonly miles: string;
-  /** mm:ss; "" where there is nothing to count down. */
+  /** How long until then; "" where there is nothing to count down. */
   readonly left: string;
   /** Whether the roll-in is due. */
   readonly isUrgent: boolean;
@@ -65,9 +76,16 @@ export interface Timing {
   readonly text: string;
 }
 
+/** The minimum separation is lost, or will be. */
+export interface Alarm {
+  readonly level: "caution" | "alert";
+  /** "SEPARATION" or "SEP IN 45 S". */
+  readonly text: string;
+}
+
 /** Why there is no plan. */
 export interface Trouble {
-  /** "Unable", or "No plan" and when that was said: its sentence tells of that moment. */
+  /** "Unable" or "No plan"; from the sentence's own moment on some seconds, it says which that was. */
   readonly label: string;
   readonly sentence: string;
 }
@@ -97,7 +115,7 @@ export interface Numbers {
   readonly closure: string;
   /** Offset from the leader's route, "0.3R"; "" below 0.05 NM. */
   readonly crossTrack: string;
-  /** mm:ss until it joins; "" when there is no way or it is over. */
+  /** How long until it joins; "" when there is no way or it is over. */
   readonly toJoin: string;
   /** Flight time of the join; "" as above. */
   readonly joinsAt: string;
@@ -109,6 +127,14 @@ export interface Numbers {
   readonly state: Guidance;
   /** Whether what is proposed has taken the place of a path that the crew had accepted. */
   readonly hasLapsed: boolean;
+  /** When the leader's data were lost while guidance was engaged, until the crew does the next step; "" else. */
+  readonly droppedAt: string;
+  /** Whether the minimum is lost or will be, in the words of the message line; null while it is kept. */
+  readonly alarm: Alarm | null;
+  /** The leader, while its data may be read. */
+  readonly leader: AircraftSample | null;
+  /** Whether the leader's turns to come are known; null when nothing is heard of it. */
+  readonly isIntentKnown: boolean | null;
   readonly trouble: Trouble | null;
   /** Least separation so far, and whether that is less than the minimum. */
   readonly leastSoFar: string;
@@ -126,13 +152,6 @@ export interface Numbers {
   /** Bearing and distance to the leader. */
   readonly leaderBearing: string;
   readonly leaderSpeed: string;
-}
-
-/** A time still to fly [s]: mm:ss, or "1h51" where that has no room. */
-function formatLeft(left: number): string {
-  if (left < 5999.5) return formatClock(left);
-  const minutes = Math.round(left / 60);
-  return `${Math.floor(minutes / 60)}h${String(minutes % 60).padStart(2, "0")}`;
 }
 
 /** Calm below this: no arrow. */
@@ -162,7 +181,7 @@ export function numbersOf(flight: Moment): Numbers {
     separation: shown === null ? NOTHING : formatMiles(shown.separation_m),
     closure: shown === null ? NOTHING : formatSignedKnots(shown.closure_mps),
     crossTrack: shown === null ? NOTHING : formatSide(shown.cross_track_m),
-    toJoin: left === null ? "" : formatLeft(left),
+    toJoin: left === null ? "" : formatClock(left),
     joinsAt: left === null || guided === null ? "" : formatClock(guided.t_s + left),
     next: guided === null ? null : nextPoint(flight, guided),
     nextTurn: guided === null ? null : nextTurnText(flight, guided),
@@ -170,6 +189,10 @@ export function numbersOf(flight: Moment): Numbers {
     plan: guided === null ? null : shownPlan(flight),
     state: guidance(flight),
     hasLapsed: hasLapsed(flight),
+    droppedAt: wasDropped(flight) ? formatClock(flight.engagement?.t_s ?? 0) : "",
+    alarm: seen.map ? alarmOf(flight) : null,
+    leader: shown?.leader ?? null,
+    isIntentKnown: shown === null ? null : (flight.route?.intent_known ?? null),
     trouble: guided === null ? null : troubleOf(flight),
     leastSoFar: sample === null ? NOTHING : formatMiles(leastUntil(flight, sample)),
     wasLost: sample !== null && sample.least_separation_m < (started?.min_separation_m ?? 0),
@@ -212,14 +235,28 @@ function timingOf({ mode, spacing_error_m: error, leader }: PairSample): Timing 
   };
 }
 
+function alarmOf(flight: Moment): Alarm | null {
+  const { state, within } = separation(flight);
+  switch (state) {
+    case "lost":
+      return { level: "alert", text: "SEPARATION" };
+    case "predicted":
+      return { level: "caution", text: `SEP IN ${within} S` };
+    case "kept":
+      return null;
+  }
+}
+
 function troubleOf(flight: Moment): Trouble | null {
   const [unavailable, unable] = [flight.unavailable, flight.unable];
-  if (unavailable !== null)
-    return {
-      label: `No plan at ${formatClock(unavailable.t_s)}`,
-      sentence: inPageUnits(unavailable.answer.message),
-    };
-  return unable === null ? null : { label: "Unable", sentence: inPageUnits(unable.message) };
+  // The numbers in a sentence are those of its moment: once that is over, it is said to be.
+  const dated = (label: string, t: number, message: string): Trouble => {
+    const sentence = inPageUnits(message);
+    if (isRecent(flight, t, NEWS)) return { label, sentence };
+    return { label, sentence: `As of ${formatClock(t)}: ${startLower(sentence)}` };
+  };
+  if (unavailable !== null) return dated("No plan", unavailable.t_s, unavailable.answer.message);
+  return unable === null ? null : dated("Unable", unable.t_s, unableSentence(unable));
 }
 
 function airTexts(flight: Moment, reading: PairSample | null) {
@@ -258,7 +295,7 @@ function nextPoint(flight: Moment, reading: PairSample): NextPoint | null {
   return {
     name: turn === null ? "CNV" : `${turn.name} ${turn.size}°`,
     ...toward(reading, point),
-    left: formatLeft(left),
+    left: formatClock(left),
     isUrgent: turn !== null && left <= ROLL_IN,
   };
 }
@@ -267,7 +304,7 @@ function nextTurnText(flight: Moment, reading: PairSample): NextTurnText | null 
   const plan = shownPlan(flight);
   const turn = plan === null ? null : nextTurn(plan, reading.t_s);
   if (turn === null) return null;
-  return { size: `${turn.size[0]} ${turn.size.slice(1)}°`, left: formatLeft(turn.in) };
+  return { size: `${turn.size[0]} ${turn.size.slice(1)}°`, left: formatClock(turn.in) };
 }
 
 function leastAhead(flight: Moment, reading: PairSample): LeastAhead | null {
@@ -276,7 +313,7 @@ function leastAhead(flight: Moment, reading: PairSample): LeastAhead | null {
   const miles = formatMiles(closest.least);
   if (closest.at <= reading.t_s) return { miles, left: "", when: "passed" };
   if (isClosestAtJoin(flight, closest)) return { miles, left: "", when: "at_join" };
-  return { miles, left: formatLeft(closest.at - reading.t_s), when: "ahead" };
+  return { miles, left: formatClock(closest.at - reading.t_s), when: "ahead" };
 }
 
 type Place = Pick<PathPoint, "x_m" | "y_m">;

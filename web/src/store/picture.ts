@@ -3,7 +3,7 @@
  * and the time of the view. The display, the panels and the scene's poster read it and compute nothing.
  */
 
-import { computed, type ReadonlySignal } from "@preact/signals";
+import { computed, type ReadonlySignal, signal } from "@preact/signals";
 import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometry";
 import { KT, NM } from "../units";
 import type {
@@ -14,6 +14,7 @@ import type {
   PlanChanged,
   PlanProposed,
 } from "../wire";
+import { type Announcements, announcementsOf } from "./announcements";
 import {
   type Closest,
   closestApproach,
@@ -30,6 +31,7 @@ import {
 } from "./committed";
 import { describe } from "./description";
 import { STALE_AGE } from "./flight";
+import type { Ghost } from "./ghost";
 import { type Moved, moveAircraft, movedBy, STILL } from "./motion";
 import { type Notice, noticesOf } from "./notices";
 import { type Numbers, numbersOf, ROLL_IN } from "./numbers";
@@ -38,10 +40,12 @@ import { AGE, type AgeStyle, GUIDANCE, type GuidanceStyle } from "./state-styles
 import {
   age,
   ageOf,
+  commandsSpeed,
   type Guidance,
   guidance,
   isRecent,
   leaderAge,
+  NEWS,
   type Outlook,
   separation,
 } from "./states";
@@ -62,8 +66,8 @@ export interface TurnAhead extends Turn {
   readonly to: PathPoint;
 }
 
-/** Sent to the service, validated by it in the place of air traffic control, or rejected. */
-export type Order = "" | "SENT" | "VALID" | "REJECTED";
+/** The crew's last order: sent to the service, accepted by it, or refused. */
+export type Order = "" | "SENT" | "ACCEPTED" | "REJECTED";
 
 /** A whole minute of the plan, and where both will be. */
 export interface MinuteAhead {
@@ -112,7 +116,9 @@ export interface Picture {
   readonly trend: readonly TrendPoint[];
   readonly route: LeaderRoute | null;
   readonly wind: Vector;
+  /** Where the leader has been, while it is designated; and own ship. */
   readonly trail: readonly TrailPoint[];
+  readonly ownTrail: readonly TrailPoint[];
   /** The last plan, flown or not. */
   readonly plan: PlanChanged | null;
   /** The plan whose points are shown: flown, or proposed. */
@@ -141,6 +147,8 @@ export interface Picture {
   readonly order: Order;
   /** A new mode is boxed for a while. */
   readonly boxed: boolean;
+  /** Who commands the speed now, and who will; boxed for a while once that has changed. */
+  readonly speed: { readonly now: string; readonly next: string; readonly boxed: boolean };
   readonly notices: readonly Notice[];
   readonly ended: boolean;
 }
@@ -153,13 +161,21 @@ export interface Shown {
   readonly numbers: ReadonlySignal<Numbers>;
   /** The picture in words. */
   readonly words: ReadonlySignal<string>;
+  /** What is spoken of it. */
+  readonly spoken: ReadonlySignal<Announcements>;
+  /** Another flight that is seen beside this one; null if there is none. */
+  readonly ghost: ReadonlySignal<Ghost | null>;
 }
 
-/** A new mode is boxed this long, and the plan before is shown [s]. */
-const BOXED = 10;
+const NO_GHOST: ReadonlySignal<Ghost | null> = signal(null);
+
+/** The plan before is shown this long [s]. */
 const SUPERSEDED_SHOWN = 3;
 
-export function createShown({ moment, read, since, isSent }: Flight): Shown {
+export function createShown(
+  { moment, read, since, isSent }: Flight,
+  ghost: Shown["ghost"] = NO_GHOST,
+): Shown {
   const numbers = computed(() => numbersOf(read.value));
   return {
     picture: computed(() => pictureOf({ ...moment.value, isSent: isSent.value })),
@@ -169,6 +185,8 @@ export function createShown({ moment, read, since, isSent }: Flight): Shown {
     }),
     numbers,
     words: computed(() => describe(read.value, numbers.value)),
+    spoken: computed(() => announcementsOf(read.value)),
+    ghost,
   };
 }
 
@@ -207,6 +225,7 @@ export function pictureOf(flight: Moment): Picture {
     route: now === null || !designated || !known.guidance ? null : flight.route,
     wind: windOver(flight),
     trail: now === null || !designated ? NO_TRAIL : flight.trail.leader,
+    ownTrail: now === null ? NO_TRAIL : flight.trail.pursuer,
     plan: guided === null ? null : flight.plan,
     flown,
     superseded: guided === null ? null : supersededPlan(flight),
@@ -222,7 +241,8 @@ export function pictureOf(flight: Moment): Picture {
     places: placesOf(flight, now, style),
     slotTrack: slotTrack(flight),
     order: guided === null ? "" : orderOf(flight, state),
-    boxed: style !== null && isRecent(flight, flight.mode?.t_s, BOXED),
+    boxed: style !== null && isRecent(flight, flight.mode?.t_s, NEWS),
+    speed: speedOf(flight, style),
     notices: noticesOf(flight),
     ended: flight.ended,
   };
@@ -233,15 +253,24 @@ function supersededPlan(flight: Moment): PlanChanged | null {
   return isRecent(flight, superseded?.at, SUPERSEDED_SHOWN) ? (superseded?.plan ?? null) : null;
 }
 
-/** A rejection is shown this long [s]. */
-const REJECTION_SHOWN = 10;
+function speedOf(flight: Moment, style: GuidanceStyle | null): Picture["speed"] {
+  const { sample, before, plan } = flight;
+  if (style === null || sample === null) return { now: "", next: "", boxed: false };
+  const isCommanded = commandsSpeed(sample, plan);
+  const wasCommanded = before !== null && commandsSpeed(before, plan);
+  return {
+    now: isCommanded ? "RG SPD" : "SPD",
+    next: isCommanded ? "" : style.speedNext,
+    boxed: before !== null && isCommanded !== wasCommanded,
+  };
+}
 
 function orderOf(flight: Moment, state: Guidance): Order {
   if (flight.isSent) return "SENT";
   const answer = flight.engagement;
   const since = answer === null ? Number.POSITIVE_INFINITY : flight.t - answer.t_s;
-  if (answer?.engagement === answer?.previous && since < REJECTION_SHOWN) return "REJECTED";
-  return state === "armed" || state === "converge" ? "VALID" : "";
+  if (answer?.engagement === answer?.previous && since < NEWS) return "REJECTED";
+  return state === "armed" ? "ACCEPTED" : "";
 }
 
 /** Within so much of the slot, along and across the leader's route, own ship has joined [m]. */

@@ -1,11 +1,22 @@
 /** The texts of the numbers beside the picture, from plan and sample: plain functions, no DOM. */
 
 import { formatClock, formatHeading, formatKnots, formatMiles, NM } from "../units";
-import type { Alternative, Mode, OptimalityCard, PlanCard, ReferenceCard } from "../wire";
+import type { Alternative, Mode, OptimalityCard, PlanCard, ReferenceCard, Unable } from "../wire";
 import type { Guidance } from "./states";
 
 export function countTurns(plan: PlanCard): number {
   return plan.segments.filter((segment) => segment.kind === "turn").length;
+}
+
+/** A path's word, letter by letter: "straight, right, straight, right". */
+export function wordTitle(word: string): string {
+  const letters: Readonly<Record<string, string>> = {
+    S: "straight",
+    L: "left",
+    R: "right",
+    B: "along the minimum",
+  };
+  return [...word].map((letter) => letters[letter] ?? letter).join(", ");
 }
 
 export const MODE_NAMES: Record<Mode, string> = {
@@ -118,4 +129,15 @@ export function closureText(closure: number): string {
   const knots = formatKnots(Math.abs(closure));
   if (knots === "0") return "steady";
   return `${closure > 0 ? "closing" : "opening"} ${knots} kt`;
+}
+
+/** Why guidance is unable, without the word that stands beside it. */
+export function unableSentence({ message }: Pick<Unable, "message">): string {
+  const sentence = message.replace(/^Unable: /, "");
+  return sentence.charAt(0).toUpperCase() + sentence.slice(1);
+}
+
+/** A sentence that goes on another one; a name it begins with stays as it is. */
+export function startLower(sentence: string): string {
+  return sentence.replace(/^[A-Z](?=[a-z ])/, (first) => first.toLowerCase());
 }

@@ -1,8 +1,9 @@
 /** What one document changes of what is known: a fold over all documents but the samples. */
 
 import { inPageUnits } from "../units";
-import type { Alert, Document, EngagementChanged, PlanChanged, Unable } from "../wire";
+import type { Alert, Document, EngagementChanged, PlanChanged } from "../wire";
 import { isAbout, type PairCard, pairCard, pairResult } from "./pair";
+import { startLower, unableSentence } from "./reading";
 import type { Known, Message } from "./types";
 
 const MESSAGES_KEPT = 200;
@@ -15,6 +16,7 @@ export const NOTHING_KNOWN: Known = {
   promise: null,
   proposal: null,
   forecast: null,
+  fan: null,
   superseded: null,
   unavailable: null,
   alerts: [],
@@ -61,6 +63,8 @@ function take(known: Known, document: Document, pair: PairCard): Known {
       return { ...known, lost: document };
     case "forecast_changed":
       return { ...known, forecast: document };
+    case "fan_changed":
+      return { ...known, fan: document.joins.length > 0 ? document : null };
     case "flight_ended":
       return { ...known, result: pairResult(document, pair) };
     case "flight_started":
@@ -95,7 +99,7 @@ export function messageOf(document: Document): Message | null {
     case "alert":
       return say(document.cleared ? "clear" : document.level, document.message);
     case "unable":
-      return say("unable", sentenceOf(document));
+      return say("unable", unableSentence(document));
     case "separation_lost":
       return say("lost", `Separation: ${startLower(document.cause)}`);
     case "flight_ended":
@@ -104,6 +108,7 @@ export function messageOf(document: Document): Message | null {
     case "leader_route":
     case "plan_proposed":
     case "forecast_changed":
+    case "fan_changed":
     case "sample":
       return null;
   }
@@ -139,14 +144,4 @@ function takeAlert(known: Known, alert: Alert): Known {
     (each) => each.subject !== alert.subject || each.other !== alert.other,
   );
   return { ...known, alerts: alert.cleared ? others : [...others, alert] };
-}
-
-/** Why guidance is unable, without the word that stands beside it. */
-function sentenceOf({ message }: Unable): string {
-  const sentence = message.replace(/^Unable: /, "");
-  return sentence.charAt(0).toUpperCase() + sentence.slice(1);
-}
-
-function startLower(sentence: string): string {
-  return sentence.charAt(0).toLowerCase() + sentence.slice(1);
 }

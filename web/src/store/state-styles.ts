@@ -11,7 +11,7 @@ export interface GuidanceStyle {
   readonly points: boolean;
   /** Their colour, and that of the join. */
   readonly pathColour: Colour;
-  /** Nothing but the present track says where own ship goes. */
+  /** Nothing but the present track says where own ship goes: no path is shown, since solid is flown. */
   readonly trackLine: boolean;
   /** Whether the leader is designated: ringed, its route, its past and the minimum round it shown. */
   readonly designated: boolean;
@@ -22,7 +22,8 @@ export interface GuidanceStyle {
   /** D, d and what else belongs to a leader that is to be joined. */
   readonly spacing: boolean;
   readonly lateral: { readonly now: string; readonly next: string };
-  readonly speed: { readonly now: string; readonly next: string };
+  /** Who will command the speed, while the crew does. */
+  readonly speedNext: string;
 }
 
 const NOTHING = {
@@ -36,7 +37,7 @@ const NOTHING = {
   crossTrack: false,
   spacing: true,
   lateral: { now: "HDG", next: "" },
-  speed: { now: "SPD", next: "" },
+  speedNext: "",
 } as const satisfies GuidanceStyle;
 
 const FLOWN = {
@@ -49,11 +50,18 @@ const FLOWN = {
 export const GUIDANCE: Record<Guidance, GuidanceStyle> = {
   off: { ...NOTHING, designated: false, slot: "none", spacing: false },
   designated: NOTHING,
-  proposed: { ...NOTHING, path: "proposed", points: true, pathColour: "proposed" },
+  proposed: {
+    ...NOTHING,
+    path: "proposed",
+    points: true,
+    pathColour: "proposed",
+    trackLine: false,
+  },
   armed: {
     ...NOTHING,
     path: "armed",
     points: true,
+    trackLine: false,
     pathColour: "armed",
     lateral: { now: "HDG", next: "RG" },
   },
@@ -61,19 +69,17 @@ export const GUIDANCE: Record<Guidance, GuidanceStyle> = {
     ...FLOWN,
     points: true,
     lateral: { now: "RG CNV", next: "RG CAP" },
-    speed: { now: "SPD", next: "RG SPD" },
+    speedNext: "RG SPD",
   },
   capture: {
     ...FLOWN,
     crossTrack: true,
     lateral: { now: "RG CAP", next: "RG TRK" },
-    speed: { now: "RG SPD", next: "" },
   },
   follow: {
     ...FLOWN,
     crossTrack: true,
     lateral: { now: "RG TRK", next: "" },
-    speed: { now: "RG SPD", next: "" },
   },
   escape: {
     ...FLOWN,

@@ -1,5 +1,8 @@
 /** The states of the picture: how far guidance is engaged, how old the data are, whether the separation holds. */
 
+import { KT } from "../units";
+import type { PlanChanged } from "../wire";
+import type { PairSample } from "./pair";
 import type { Moment } from "./types";
 
 /**
@@ -54,6 +57,11 @@ export function hasLapsed(flight: Moment): boolean {
   return last?.previous === "armed" && last.engagement === "designated";
 }
 
+/** Whether guidance was engaged when the leader's data were lost, and the crew has done nothing since. */
+export function wasDropped({ engagement: last }: Moment): boolean {
+  return last?.previous === "engaged" && last.engagement === "designated";
+}
+
 /** How old all that is shown is. */
 export function age(flight: Moment): Age {
   if (flight.now === null) return "none";
@@ -81,9 +89,37 @@ export const GRAZE = 20;
 
 /** Shown for a while: so many seconds of flight, and two of the viewer at least. */
 export function isRecent({ t, rate }: Moment, since: number | undefined, shown: number): boolean {
-  return since !== undefined && t - since < Math.max(shown, LEAST_SHOWN * rate);
+  return since !== undefined && t - since < shownFor(shown, rate);
 }
 const LEAST_SHOWN = 2;
+
+function shownFor(shown: number, rate: number): number {
+  return Math.max(shown, LEAST_SHOWN * rate);
+}
+
+/** News, such as a new mode, are boxed or said for so long [s, flight time]. */
+export const NEWS = 10;
+
+/** How long news stand where `rate` seconds of flight are shown in one [s, flight time]. */
+export function newsFor(rate: number): number {
+  return shownFor(NEWS, rate);
+}
+
+/** Speeds nearer to each other than this are one [m/s]. */
+const ONE_SPEED = KT;
+
+/**
+ * Whether guidance commands the speed of a sample: where it closes on the slot and keeps the spacing,
+ * and on the way there as soon as it asks for another speed than the crew's, at which plans are flown.
+ */
+export function commandsSpeed(sample: PairSample, plan: PlanChanged | null): boolean {
+  const { mode, engagement, commanded_tas_mps: commanded } = sample;
+  if (engagement !== "engaged" || mode === "heading") return false;
+  if (mode === "capture" || mode === "follow") return true;
+  if (plan === null) return false;
+  const { length_m, time_to_converge_s } = plan.plan;
+  return Math.abs(commanded - length_m / time_to_converge_s) > ONE_SPEED;
+}
 
 export interface Outlook {
   readonly state: Separation;

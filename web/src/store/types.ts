@@ -4,6 +4,7 @@ import type { Signal } from "@preact/signals";
 import type {
   Alert,
   EngagementChanged,
+  FanChanged,
   ForecastChanged,
   LeaderRoute,
   LinkResult,
@@ -55,6 +56,8 @@ export interface Known {
   readonly proposal: PlanProposed | null;
   /** The path that own ship will really fly, whatever its mode. */
   readonly forecast: ForecastChanged | null;
+  /** Where it would join if the leader began a turn now; null while its intent is known. */
+  readonly fan: FanChanged | null;
   /** The plan before, and the flight time [s] at which another took its place. */
   readonly superseded: { readonly plan: PlanChanged; readonly at: number } | null;
   /** Set while the last answer was "no plan". */
@@ -78,6 +81,8 @@ export interface Known {
 export interface Seen {
   /** The newest sample, as it came; of a leader that is not heard of, what is expected. */
   readonly sample: PairSample | null;
+  /** The sample of a while ago: what has changed since is news. */
+  readonly before: PairSample | null;
   /** Since when it has joined, and when the minimum was last infringed [s, flight time]. */
   readonly joinedAt: number;
   readonly belowAt: number;

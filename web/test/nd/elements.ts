@@ -50,7 +50,7 @@ export const ELEMENT_ROWS: readonly ElementRow[] = [
     8,
     "track line",
     ".nd-trackline path",
-    ALL.filter((state) => !ENGAGED.includes(state)),
+    ALL.filter((state) => ![...ENGAGED, "proposed", "armed"].includes(state)),
   ),
   row(9, "GS and TAS", ".nd-air text", ALL),
   row(10, "wind", ".nd-air text:nth-of-type(5)", ALL),
@@ -96,7 +96,7 @@ export const ELEMENT_ROWS: readonly ElementRow[] = [
     "unable",
     "data_lost",
   ]),
-  row(45, "validation", ".nd-atc text", ["armed", "converge"]),
+  row(45, "the crew's order", ".nd-atc text", ["armed"]),
   row(46, "flags", ".nd-flag text", []),
   none(47, "simulated time and rate", "it stands outside the instrument, in the page's head"),
 ];

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { fittingRange } from "../../src/nd/range";
+import { fittingRange, largestLegible, stepToward } from "../../src/nd/range";
 import { layoutOf, onMap, project } from "../../src/nd/view";
 import { createShown } from "../../src/store/picture";
 import { NM } from "../../src/units";
@@ -61,4 +61,21 @@ test("what is behind does not make ARC useless, but for the leader", () => {
   expect(fittingRange("ARC", POSE, [ahead(-3), ahead(6)], 10)).toBe(20);
   expect(fittingRange("ARC", POSE, [ahead(-20), ahead(6)], 10)).toBe(10);
   expect(fittingRange("ARC", POSE, [ahead(-20)], 10)).toBeGreaterThan(80);
+});
+
+test("a range follows by single steps, seconds apart, sooner where what is near is off the map", () => {
+  expect(stepToward(320, 10, { since: 3.9, isUrgent: false })).toBe(10);
+  expect(stepToward(320, 10, { since: 4, isUrgent: false })).toBe(20);
+  expect(stepToward(320, 10, { since: 1, isUrgent: true })).toBe(20);
+  expect(stepToward(10, 80, { since: 5, isUrgent: false })).toBe(40);
+  expect(stepToward(40, 40, { since: 99, isUrgent: true })).toBe(40);
+});
+
+test("the circle of least separation can be told apart in the largest range that is legible", () => {
+  for (const mode of ["ROSE", "ARC"] as const) {
+    const range = largestLegible(mode, 5 * NM);
+    expect(5 * NM * layoutOf(mode, range).scale).toBeGreaterThanOrEqual(20);
+    expect(range).toBe(80);
+    expect(largestLegible(mode, 0)).toBe(10);
+  }
 });

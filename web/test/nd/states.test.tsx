@@ -174,6 +174,41 @@ describe.each(GUIDANCES.map((state) => [state] as const))("%s", (state) => {
   });
 });
 
+describe("the speed column says who commands the speed", () => {
+  /** Own ship in converge, `slower` than the crew's speed, and as it was 10 s ago [m/s]. */
+  function column(slower: number, slowerBefore = slower) {
+    const flight = flightIn("converge");
+    const { sample } = flight.moment.value;
+    if (sample === null) throw new Error("An empty flight.");
+    const commanded = (by: number) => ({
+      ...sample,
+      commanded_tas_mps: sample.commanded_tas_mps - by,
+    });
+    const now = commanded(slower);
+    amend(flight, { sample: now, now, before: commanded(slowerBefore) });
+    const root = mountDisplay({
+      shown: createShown(flight),
+      mode: signal<"ROSE" | "ARC">("ROSE"),
+      range: signal(80),
+    });
+    const cells = [...root.querySelectorAll(".nd-fma text")].map((each) => each.textContent ?? "");
+    const boxes = [...root.querySelectorAll(".nd-fma .nd-box")].map((each) =>
+      Number(each.getAttribute("x")),
+    );
+    return { now: cells[0], next: cells[5], isBoxed: boxes.some((x) => x < 60) };
+  }
+
+  test("the crew's, while guidance flies at it", () => {
+    expect(column(0)).toEqual({ now: "SPD 467", next: "RG SPD", isBoxed: false });
+    expect(column(0.4).now).toMatch(/^SPD/);
+  });
+
+  test("guidance, as soon as it brakes on its way; boxed while that is new", () => {
+    expect(column(6, 0)).toEqual({ now: "RG SPD 455", next: "", isBoxed: true });
+    expect(column(20, 6)).toEqual({ now: "RG SPD 428", next: "", isBoxed: false });
+  });
+});
+
 test("ghosts of the other paths stand under what is proposed, and go once it is accepted", () => {
   const draw = (state: Guidance) =>
     mountDisplay({

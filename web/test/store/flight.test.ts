@@ -98,8 +98,12 @@ describe("what the ticks say", () => {
     store.receive(tick(1, [noPlan(1), sample(1)]), 2000);
     expect(store.flight.moment.value.unavailable?.answer.reason).toBe("slot_unreachable");
     store.receive(tick(2, [sample(2)]), 3000);
-    expect(numbersOf(store.flight.moment.value).trouble?.label).toBe("No plan at 00:01");
-    store.receive(tick(3, [planChanged(3), sample(3)]), 4000);
+    const trouble = () => numbersOf(store.flight.moment.value).trouble;
+    expect(trouble()).toEqual({ label: "No plan", sentence: "The leader is faster." });
+    // its numbers are those of its second: from then on it is dated
+    store.receive(tick(12, [sample(12)]), 13_000);
+    expect(trouble()?.sentence).toBe("As of 00:01: the leader is faster.");
+    store.receive(tick(13, [planChanged(13), sample(13)]), 14_000);
     expect(store.flight.moment.value.unavailable).toBeNull();
   });
 
@@ -344,8 +348,8 @@ describe("engagement", () => {
       store.receive(tick(1, [sample(1, { time_to_go_s })]), 2000);
       return numbersOf(store.flight.moment.value).toJoin;
     };
-    expect(left(5999)).toBe("99:59");
-    expect(left(6660)).toBe("1h51");
+    expect(left(3599)).toBe("59:59");
+    expect(left(6660)).toBe("1:51:00");
   });
 
   test("a cross-track of hundreds of miles has room in its line", () => {
@@ -402,7 +406,7 @@ describe("engagement", () => {
     expect(numbersOf(store.flight.moment.value).hasLapsed).toBe(false);
   });
 
-  test("what was accepted is sent, then valid; what is refused is said so for ten seconds", () => {
+  test("what was accepted is sent, then accepted; what is refused is said so for ten seconds", () => {
     const store = proposing();
     const { picture } = createShown(store.flight);
     const order = () => picture.value.order;
@@ -411,11 +415,11 @@ describe("engagement", () => {
     expect(order()).toBe("SENT");
     const armed = sample(2, { mode: "heading", engagement: "armed" });
     store.receive(tick(2, [changed(2, "designated", "armed"), armed]), 2000);
-    expect(order()).toBe("VALID");
+    expect(order()).toBe("ACCEPTED");
     store.receive(tick(3, [changed(3, "armed", "armed"), { ...armed, t_s: 3 }]), 3000);
     expect(order()).toBe("REJECTED");
     store.receive(tick(14, [{ ...armed, t_s: 14 }]), 14_000);
-    expect(order()).toBe("VALID");
+    expect(order()).toBe("ACCEPTED");
   });
 
   test("without a path there is no proposal, and with one no reason against it", () => {
