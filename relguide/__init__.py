@@ -29,6 +29,7 @@ if typing.TYPE_CHECKING:
     from relguide.flying.documents import Alert as Alert
     from relguide.flying.documents import Document as Document
     from relguide.flying.documents import EngagementChanged as EngagementChanged
+    from relguide.flying.documents import FanChanged as FanChanged
     from relguide.flying.documents import FlightEnded as FlightEnded
     from relguide.flying.documents import FlightStarted as FlightStarted
     from relguide.flying.documents import ForecastChanged as ForecastChanged
@@ -70,6 +71,9 @@ if typing.TYPE_CHECKING:
     from relguide.maps.isochrones import Grid as Grid
     from relguide.maps.isochrones import Isochrones as Isochrones
     from relguide.maps.isochrones import isochrones as isochrones
+    from relguide.pictures.flight import Flight as Flight
+    from relguide.pictures.picture import Picture as Picture
+    from relguide.pictures.picture import picture as picture
     from relguide.planning.alternatives import Alternative as Alternative
     from relguide.planning.alternatives import alternatives as alternatives
     from relguide.planning.arrival import Arrival as Arrival
@@ -120,6 +124,7 @@ _HOMES = {
     "Alert": "relguide.flying.documents",
     "Document": "relguide.flying.documents",
     "EngagementChanged": "relguide.flying.documents",
+    "FanChanged": "relguide.flying.documents",
     "FlightEnded": "relguide.flying.documents",
     "FlightStarted": "relguide.flying.documents",
     "ForecastChanged": "relguide.flying.documents",
@@ -161,6 +166,9 @@ _HOMES = {
     "Grid": "relguide.maps.isochrones",
     "Isochrones": "relguide.maps.isochrones",
     "isochrones": "relguide.maps.isochrones",
+    "Flight": "relguide.pictures.flight",
+    "Picture": "relguide.pictures.picture",
+    "picture": "relguide.pictures.picture",
     "Alternative": "relguide.planning.alternatives",
     "alternatives": "relguide.planning.alternatives",
     "Arrival": "relguide.planning.arrival",
@@ -220,6 +228,8 @@ __all__ = [
     "DeclaredLeader",
     "Document",
     "EngagementChanged",
+    "FanChanged",
+    "Flight",
     "FlightEnded",
     "FlightStarted",
     "FlyStraight",
@@ -239,6 +249,7 @@ __all__ = [
     "NoPlan",
     "Optimality",
     "OptimalityReport",
+    "Picture",
     "Plan",
     "PlanChanged",
     "PlanProposed",
@@ -279,6 +290,7 @@ __all__ = [
     "load_settings",
     "load_track",
     "own_scenario",
+    "picture",
     "plan",
     "plan_arrays",
     "progress_bar",

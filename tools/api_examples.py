@@ -43,6 +43,7 @@ def ask(client: TestClient) -> dict[str, Any]:
         "show_readiness": _wait_for(client, "/readyz", lambda got: got["status"] == "ready"),
         "make_plan": client.post("/api/v1/plans", json=EXAMPLE).json(),
         "make_plans": client.post("/api/v1/plans/batch", json=[EXAMPLE | {"id": "a"}]).json(),
+        "compare_planners": client.post("/api/v1/plans/compare", json=STRAIGHT).json(),
         "draw_area_of_body": client.post("/api/v1/areas", json=area).json(),
         "show_area": client.get(
             "/api/v1/areas", params={"situation": text, "level_s": 600.0, **GRID}

@@ -120,6 +120,7 @@ def run(chosen: argparse.Namespace) -> int:
     from relguide.contract.flight_summary import failures, figures, summarize
     from relguide.contract.orders import commands_of
     from relguide.contract.recorder import record
+    from relguide.flying.fans import all_fans, no_fans
     from relguide.flying.flight import fly
     from relguide.flying.guidance.settings import DEFAULT, load_settings
     from relguide.planning.progress import show_progress
@@ -143,6 +144,7 @@ def run(chosen: argparse.Namespace) -> int:
         settings=settings,
         guidance=chosen.guidance,
         planner_name=chosen.planner,
+        wants_fan=no_fans if chosen.record is None else all_fans,
     )
     for _ in islice(flown(sample_period=1.0), LOADING):
         pass

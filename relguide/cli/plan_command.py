@@ -36,6 +36,7 @@ EXAMPLES = """
     relguide plan situation.json --include alternatives,optimality
                                               with what else there was, H and λ
     relguide plan situation.json --prove 10   with a better lower bound of its time
+    relguide plan situation.json --compare    what four planners would fly, and what it costs
     relguide plan --batch all.jsonl --deadline 0.25
                                               the best found in 0.25 s each
     """
@@ -72,7 +73,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         type=_parse_include,
         default=(),
         help="alternatives: every other path to the slot and why it is not flown; optimality: how "
-        "the plan meets Pontryagin's conditions, with H and λ along it; or both, with a comma",
+        "the plan meets Pontryagin's conditions, with H and λ along it; flown: when it joins if an "
+        "aircraft flies it, and where; or some of them, with commas",
+    )
+    parser.add_argument(
+        "--compare",
+        action="store_true",
+        help="the exact planner beside the networks, the paper's tree and the paper's network as "
+        "printed: word, time, verdict and cost of each",
     )
     add_planner(parser)
     add_batch_options(parser)
@@ -80,6 +88,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(chosen: argparse.Namespace) -> int:
     """Plan, and print the answers."""
+    if chosen.compare:
+        if chosen.batch or chosen.prove or chosen.include or chosen.planner != "exact":
+            raise ValueError(
+                "--compare asks all planners about one situation: leave out --batch, --prove, "
+                "--include and --planner."
+            )
+        refuse_batch_options(chosen)
+        return _compare(chosen.file, chosen.deadline, table=for_people(chosen, "rich"))
     if chosen.batch:
         need("orjson")
         return _run(chosen)
@@ -130,7 +146,7 @@ class AskedBeside(NamedTuple):
 
 
 def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool) -> int:
-    from relguide.contract.answers import answer, check_optimality
+    from relguide.contract.answers import answer, check_optimality, fly_plan
     from relguide.flying.cards import no_plan_card, plan_card
     from relguide.planning.plan import NoPlan, Plan
 
@@ -141,7 +157,12 @@ def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool)
         planner(situation)
     proving = prove_after(planner, asked.prove)
     if table:
-        from relguide.cli.plan_tables import print_no_plan, print_optimality, print_plan
+        from relguide.cli.plan_tables import (
+            print_flown,
+            print_no_plan,
+            print_optimality,
+            print_plan,
+        )
         from relguide.planning.acceptance import ask
         from relguide.planning.alternatives import alternatives
         from relguide.planning.deadline import end_of, left_until
@@ -154,6 +175,8 @@ def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool)
                 wanted, left = "alternatives" in asked.include, left_until(until)
                 others = alternatives(planned, deadline=left) if wanted else ()
                 print_plan(plan_card(planned, others), min_separation=situation.min_separation)
+                if "flown" in asked.include:
+                    print_flown(fly_plan(planned, proving, until))
                 if "optimality" in asked.include:
                     print_optimality(check_optimality(planned))
         return DONE if isinstance(planned, Plan) else FAILED
@@ -161,6 +184,22 @@ def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool)
     name = {"id": body.id} if "id" in body.model_fields_set else {}
     write_json(name | reply)
     return DONE if reply["status"] == "planned" else FAILED
+
+
+def _compare(file: str, deadline: float | None, *, table: bool) -> int:
+    from relguide.contract.bodies import path_to_wire
+    from relguide.learn.comparison import compare
+
+    situation, anchor, body = read_situation(file)
+    found = compare(situation, deadline=deadline)
+    if table:
+        from relguide.cli.plan_tables import print_verdicts
+
+        print_verdicts(found)
+    else:
+        name = {"id": body.id} if "id" in body.model_fields_set else {}
+        write_json(name | {"planners": [path_to_wire(verdict, anchor) for verdict in found]})
+    return DONE if found[0].status == "planned" else FAILED
 
 
 def _parse_include(text: str) -> "tuple[Include, ...]":

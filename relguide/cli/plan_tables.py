@@ -1,5 +1,6 @@
 """Plans for people: tables in minutes, nautical miles and degrees."""
 
+from collections.abc import Sequence
 from typing import assert_never
 
 from rich.box import SIMPLE_HEAD
@@ -13,8 +14,10 @@ from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     BoundarySegment,
     EarlyAlternativeCard,
+    FlownCard,
     MissingAlternativeCard,
     NoPlanCard,
+    NotFlownCard,
     PathPoint,
     PathSegment,
     PlanCard,
@@ -22,7 +25,13 @@ from relguide.flying.plan_documents import (
     TurnSegment,
     UnsafeAlternativeCard,
 )
-from relguide.flying.verdicts import NotChecked, OptimalityCheck, RegularCheck
+from relguide.flying.verdicts import (
+    ComparedPlanner,
+    NotChecked,
+    OptimalityCheck,
+    PlannerVerdict,
+    RegularCheck,
+)
 from relguide.planning.phrases import whole_degrees
 from relguide.units import DEG, NM
 
@@ -31,6 +40,13 @@ PROOFS = {
     "certified": "optimal to 0.1 s: no plan that keeps the separation limit is faster by more",
     "bound": "proved to within the lower bound",
     "none": "not proved optimal",
+}
+
+PLANNER_NAMES: dict[ComparedPlanner, str] = {
+    "exact": "exact",
+    "network": "networks",
+    "regular_dp": "the paper's tree",
+    "printed_network": "the paper's network",
 }
 
 
@@ -80,6 +96,40 @@ def print_plan(card: PlanCard, *, min_separation: float) -> None:
     for other in card.alternatives:
         others.add_row(*_alternative(other))
     console.print(others)
+
+
+def print_flown(card: FlownCard | NotFlownCard) -> None:
+    """Print when an aircraft that flies a plan joins, and why then."""
+    console = Console(highlight=False)
+    match card:
+        case FlownCard():
+            console.print(
+                Text.assemble("Flown, it joins in ", (clock(card.join), "bold green"))
+                + f" by {card.word}, and comes within {miles(card.least)}. {card.reason}".rstrip()
+            )
+        case NotFlownCard():
+            console.print(Text("It is not flown", "yellow") + f": {card.reason}")
+        case _:
+            assert_never(card)
+
+
+def print_verdicts(found: Sequence[PlannerVerdict]) -> None:
+    """Print what each planner would fly, and what is wrong with it."""
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    table.add_column("planner", no_wrap=True)
+    table.add_column("word", no_wrap=True)
+    for heading in ("joins in", "over exact", "least", "found in"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for each in found:
+        flown = (each.word, clock(each.time_to_converge), f"{each.over_exact:+.1f} s")
+        shown = (*flown, miles(each.least)) if each.word else ("–",) * 4
+        style = "" if each.status == "planned" else "yellow"
+        spent = f"{each.compute:.2f} ms"
+        table.add_row(PLANNER_NAMES[each.planner], *shown, spent, style=style)
+    console = Console(highlight=False)
+    console.print(table)
+    for each in found:
+        console.print(f"{PLANNER_NAMES[each.planner].capitalize()}: {each.message}")
 
 
 def print_no_plan(card: NoPlanCard) -> None:

@@ -11,6 +11,7 @@ from relguide.flying.documents import (
     Alert,
     Document,
     EngagementChanged,
+    FanChanged,
     FlightEnded,
     FlightStarted,
     ForecastChanged,
@@ -82,6 +83,7 @@ def summarize(documents: Iterable[Document]) -> FlightSummary:
                     | PlanProposed()
                     | LeaderRoute()
                     | ForecastChanged()
+                    | FanChanged()
                     | Sample()
                 ):
                     pass  # nothing that is said to anybody

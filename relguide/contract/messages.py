@@ -41,7 +41,9 @@ from relguide.flying.documents import Document, Engagement, Mode
 from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     Direction,
+    FlownCard,
     NoPlanCard,
+    NotFlownCard,
     OptimalityCard,
     OtherPathCard,
     PathSegment,
@@ -74,7 +76,7 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
     if (known := _MODELS.get(document_type)) is not None:
         return known
     members: dict[str, Any] = {
-        f.wire_name: (_json_type(f.annotation), Field(description=f.doc or None))
+        f.wire_name: (_json_type(f.annotation), Field(f.missing, description=f.doc or None))
         for f in wire_fields(document_type)
     }
     if document_type is PlanCard:
@@ -87,6 +89,11 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
         members["others"] = (
             list[_json_type(OtherPathCard)],  # type: ignore[misc]
             Field(default_factory=list, description=drawn),
+        )
+        described = "The flight of it, with guidance engaged at once.\nIf asked for."
+        members["flown"] = (
+            _json_type(FlownCard | NotFlownCard),
+            Field(default=None, description=described, json_schema_extra=_no_default),
         )
     if {"x_m", "y_m"} <= members.keys():
         kind = members["x_m"][0]  # of a point, or columns of many

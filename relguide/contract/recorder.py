@@ -67,12 +67,17 @@ def replay(file: Path | str) -> Iterator[Document]:
         RecordingError: naming the first line that is not a document.
         OSError: if the file cannot be opened.
     """
+    return (document for document, _ in read_lines(file))
+
+
+def read_lines(file: Path | str) -> Iterator[tuple[Document, bytes]]:
+    """The documents of a recording, each with the line it is written in; raises as `replay`."""
     path = Path(file)
     with _open(path, "rb") as stream:
         lines = _lines(stream, path)
         _check_header(next(lines, b""), path)
         for number, line in enumerate(lines, start=2):
-            yield _document(line, f"{path}, line {number}")
+            yield _document(line, f"{path}, line {number}"), line
 
 
 def check_name(file: Path | str) -> None:
@@ -88,27 +93,54 @@ def check_name(file: Path | str) -> None:
 def _record(
     documents: Iterable[Document], path: Path, sample_rate: float | None
 ) -> Iterator[Document]:
+    with _open(path, "wb") as stream:
+        stream.write(header_line())
+        for document, lines in written(documents, sample_rate):
+            stream.write(lines)
+            yield document
+
+
+def recording_of(documents: Iterable[Document], *, sample_rate: float | None = 1.0) -> bytes:
+    """What `record` would write of documents, up to the last of them.
+
+    Args:
+        documents: of a flight.
+        sample_rate: as in `record` [Hz].
+    """
+    lines = (lines for _, lines in written(documents, sample_rate))
+    return header_line() + b"".join(lines)
+
+
+def header_line(version: int = VERSION, **origin: str) -> bytes:
+    """The first line of a recording, and what else it says of where that comes from."""
+    from pydantic_core import to_json
+
+    return to_json({"format": FORMAT, "version": version, **origin}) + b"\n"
+
+
+def written(
+    documents: Iterable[Document], sample_rate: float | None
+) -> Iterator[tuple[Document, bytes]]:
+    """Each document, and the lines that a recording has of it: none, or one, or two at the end."""
     from pydantic_core import to_json
 
     from relguide.contract.wire import dumps, to_wire
 
     due, left_out = -inf, b""
-    with _open(path, "wb") as stream:
-        stream.write(to_json({"format": FORMAT, "version": VERSION}) + b"\n")
-        for document in documents:
-            match document:
-                case Sample(t=t) if sample_rate is not None:
-                    line = to_json(_rounded(to_wire(document))) + b"\n"
-                    if t > due - 1e-6:  # rounding of t, far below any step
-                        stream.write(line)
-                        due, left_out = (floor(t * sample_rate + 1e-6) + 1.0) / sample_rate, b""
-                    else:
-                        left_out = line
-                case FlightEnded():
-                    stream.write(left_out + dumps(document) + b"\n")
-                case _:
-                    stream.write(dumps(document) + b"\n")
-            yield document
+    for document in documents:
+        match document:
+            case Sample(t=t) if sample_rate is not None:
+                line = to_json(_rounded(to_wire(document))) + b"\n"
+                if t > due - 1e-6:  # rounding of t, far below any step
+                    yield document, line
+                    due, left_out = (floor(t * sample_rate + 1e-6) + 1.0) / sample_rate, b""
+                else:
+                    yield document, b""
+                    left_out = line
+            case FlightEnded():
+                yield document, left_out + dumps(document) + b"\n"
+            case _:
+                yield document, dumps(document) + b"\n"
 
 
 def _rounded(written: Any, name: str = "") -> Any:

@@ -6,7 +6,7 @@ Python name is dropped. The field that names a union's member (`kind`, `status`)
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import Field, dataclass, fields, is_dataclass
 from enum import Enum
 from math import degrees, isfinite, radians
 from types import UnionType
@@ -25,6 +25,7 @@ from pydantic_core import to_json
 
 from relguide.contract.compass import compass
 from relguide.contract.docs import field_docs
+from relguide.flying.plan_documents import ADDED
 
 if TYPE_CHECKING:  # most of what can be written is never needed where plans are made
     from relguide.flying.aircraft_documents import (
@@ -38,12 +39,14 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
     from relguide.flying.documents import Document
     from relguide.flying.plan_documents import (
         AnyAlternativeCard,
+        FlownCard,
         NoPlanCard,
+        NotFlownCard,
         OtherPathCard,
         PathPoint,
         PlanCard,
     )
-    from relguide.flying.verdicts import OptimalityCheck, RegularCheck
+    from relguide.flying.verdicts import OptimalityCheck, PlannerVerdict, RegularCheck
 
     Card = (
         PlanCard
@@ -51,6 +54,9 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
         | PathPoint
         | AnyAlternativeCard
         | OtherPathCard
+        | FlownCard
+        | NotFlownCard
+        | PlannerVerdict
         | OptimalityCheck
         | RegularCheck
         | AircraftCard
@@ -100,6 +106,8 @@ class WireField:
     decode_number: Convert
     """JSON number → Python number, for angles; the identity for everything else. For a column of
     numbers, that of each member."""
+    missing: Any = ...
+    """JSON value where a recording of before has none; `...` for a field that is always there."""
 
     @property
     def doc(self) -> str:
@@ -184,7 +192,7 @@ def wire_fields(document_type: type[Any]) -> tuple[WireField, ...]:
     if (known := _FIELDS.get(document_type)) is not None:
         return known
     hints = get_type_hints(document_type, include_extras=True)
-    described = [_describe(f.name, hints[f.name], document_type) for f in fields(document_type)]
+    described = [_describe(f, hints[f.name], document_type) for f in fields(document_type)]
     described.sort(key=lambda f: f.name not in TAGS)
     return _FIELDS.setdefault(document_type, tuple(described))
 
@@ -206,8 +214,8 @@ def _encoder(document_type: type[Any]) -> Convert:
     return _ENCODERS.setdefault(document_type, made)
 
 
-def _describe(name: str, hint: Any, owner: type[Any]) -> WireField:
-    unit, annotation = "", hint
+def _describe(field: Field[Any], hint: Any, owner: type[Any]) -> WireField:
+    name, unit, annotation = field.name, "", hint
     if get_origin(hint) is Annotated:
         annotation, unit = get_args(hint)
     elif get_origin(hint) is tuple and get_origin(get_args(hint)[0]) is Annotated:
@@ -221,6 +229,7 @@ def _describe(name: str, hint: Any, owner: type[Any]) -> WireField:
         owner=owner,
         encode=encode,
         decode_number=decode,
+        missing=encode(field.default) if field.metadata == ADDED else ...,
     )
 
 

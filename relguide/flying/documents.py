@@ -9,7 +9,7 @@ A flight has any number of aircraft, known by their idents, and of links, each a
 leader. What is new in a flight is a new kind of document, or one more member of a list in it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from relguide.flying.aircraft_documents import (
@@ -27,6 +27,7 @@ from relguide.flying.guidance.announcements import PlanReason as PlanReason
 from relguide.flying.guidance.announcements import UnableReason as UnableReason
 from relguide.flying.modes import Mode as Mode
 from relguide.flying.plan_documents import (
+    ADDED,
     NoPlanCard,
     OtherPathCard,
     PathPoint,
@@ -202,6 +203,8 @@ class PromiseChanged:
     """The pursuer's."""
     promised: Second
     """How long until joined, braking included: as forecast by flying the closed loop ahead."""
+    was: Second = field(default=0.0, metadata=ADDED)
+    """The same as was last said, counted from now; negative if that instant has passed."""
     message: str
     kind: Literal["promise_changed"] = "promise_changed"
 
@@ -285,7 +288,48 @@ class ForecastChanged:
     """Where the aircraft is when the separation is least."""
     leader_at_closest: PathPoint
     """Where its leader is then."""
+    aside: tuple[Metre, ...] = field(default=(), metadata=ADDED)
+    """How far to either side of the line it may come at each point, by what is not certain of the
+    leader's track and of the wind (2 σ of what is believed now); none where all is exact."""
     kind: Literal["forecast_changed"] = "forecast_changed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FanJoin:
+    """Where a pursuer would join if its leader began a turn now."""
+
+    turn: Radian
+    """To the right of where the leader flies now; negative to the left."""
+    joins: Second
+    """When, flight time."""
+    x: Metre
+    """East."""
+    y: Metre
+    """North."""
+    least: Metre
+    """Least separation on the way, as forecast."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FanChanged:
+    """Where a pursuer would join after turns that its leader may begin and has not announced.
+
+    Said where somebody watches, while the leader's intent is not known and a path is proposed or
+    flown. What is saved is how much sooner it joins if it knows of a turn a minute before it begins
+    than if it learns of it as it begins; both are forecast by flying the closed loop ahead.
+    """
+
+    t: Second
+    ident: str
+    """The pursuer's."""
+    joins: tuple[FanJoin, ...]
+    """For turns of −30°, −20° … 30°; those after which there is no path are left out. None at all
+    once the intent is known, or the pursuer has joined: the fan is closed."""
+    most_saved: Second
+    """By knowing the turn for which that saves the most; 0 where nothing is saved."""
+    mean_saved: Second
+    """On average of all these turns."""
+    kind: Literal["fan_changed"] = "fan_changed"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -328,6 +372,7 @@ Document = (
     | Unable
     | SeparationLost
     | ForecastChanged
+    | FanChanged
     | Sample
     | FlightEnded
 )

@@ -14,6 +14,7 @@ from relguide.flying.dispersion import disperse
 from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.flying.envelope import envelope_fault
+from relguide.flying.fans import Wants, no_fans
 from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.guidances import Guidance, expect_guidance
 from relguide.flying.orders import Command
@@ -155,6 +156,7 @@ def fly(
     engagement: Engagement = "engaged",
     guidance: Guidance = "relguide",
     planner_name: str | None = None,
+    wants_fan: Wants = no_fans,
 ) -> Iterator[Document]:
     """Fly a scenario and say what happens, in order of time.
 
@@ -172,6 +174,8 @@ def fly(
         guidance: relguide's, or a baseline, which asks no planner.
         planner_name: who makes the plans, as `FlightStarted` says; if left out, a planner other
             than `plan` is asked once more, to learn what name its plans give it.
+        wants_fan: asked with the flight time when a fan of joins (`FanChanged`) is due, while the
+            leader's intent is not known; by default there is none.
 
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.
@@ -179,6 +183,7 @@ def fly(
     expect("scenario", scenario, Scenario)
     expect_function("planner", planner)
     expect_function("commands", commands)
+    expect_function("wants_fan", wants_fan)
     expect("settings", settings, Settings)
     expect_guidance(guidance)
     seed, step = expect_whole("seed", seed, 0), number("step", step)
@@ -195,6 +200,7 @@ def fly(
         engagement,
         guidance,
         planner_name,
+        wants_fan,
     )
 
 
@@ -209,6 +215,7 @@ def _fly(
     engagement: Engagement,
     guidance: Guidance,
     planner_name: str | None,
+    wants_fan: Wants,
 ) -> Iterator[Document]:
     if planner_name is None:
         by_plans = guidance == "relguide"
@@ -227,6 +234,7 @@ def _fly(
         after_joining=scenario.after_joining,
         engagement=engagement,
         guidance=guidance,
+        wants_fan=wants_fan,
     )
 
 

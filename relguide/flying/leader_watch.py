@@ -82,6 +82,8 @@ def _notice_turn(one: Pursuit, seen: Belief) -> Iterator[LeaderChanged]:
         return
     side = "right" if rate > 0.0 else "left"
     message = f"The leader turns {side}."
+    if one.memory.mode in ("converge", "capture") or one.memory.proposed is not None:
+        message = f"The leader turns {side} and its intent is not known: the join is uncertain."
     said = f"The leader turned {side} unannounced."
     one.view = one.view._replace(changed=said, changed_at=seen.t)
     yield LeaderChanged(t=seen.t, ident=one.names.leader, change="heading", message=message)

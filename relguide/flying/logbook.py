@@ -26,6 +26,8 @@ from relguide.flying.documents import (
     Alert,
     Document,
     EngagementChanged,
+    FanChanged,
+    FanJoin,
     ForecastChanged,
     LeaderRoute,
     ModeChanged,
@@ -49,8 +51,10 @@ from relguide.flying.guidance.announcements import (
     ProposedPlan,
     UnableTo,
 )
-from relguide.flying.guidance.forecast import Forecast
+from relguide.flying.guidance.fan import Fan
+from relguide.flying.guidance.forecast import Forecast, rows_to_draw
 from relguide.flying.guidance.memory import Advice
+from relguide.flying.perception import CERTAIN, SURE, Spread
 from relguide.flying.plan_documents import PathPoint
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.roots import FloatArray
@@ -59,16 +63,12 @@ from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
 from relguide.planning.alternatives import alternatives
 from relguide.planning.plan import Plan
 from relguide.planning.situation import Leader, Wind
-from relguide.units import DEG, Metre, Radian, Second
+from relguide.units import Metre, Second
 
 FINAL_LEG: Second = 1200.0
 """How much of the leader's endless final leg is shown [s]: as much as a pursuer needs at 100 km."""
 GHOSTS = 3
 """So many other paths are drawn beside a proposal."""
-BENT: Radian = 3.0 * DEG
-"""A forecast's points are no farther apart than this in heading: the chord strays by 4 m [rad]."""
-STRAIGHT_FOR = 30
-"""… nor than this in time [s]."""
 
 
 class PairNames(NamedTuple):
@@ -228,8 +228,10 @@ def event_document(t: Second, names: PairNames, event: Event) -> Document:
                 previous=event.previous,
                 message=event.message,
             )
-        case NewPromise(joins=joins):
-            return PromiseChanged(t=t, ident=ident, promised=joins - t, message=event.message)
+        case NewPromise(joins=joins, was=was):
+            return PromiseChanged(
+                t=t, ident=ident, promised=joins - t, was=was - t, message=event.message
+            )
         case Alerted():
             return Alert(
                 t=t,
@@ -256,15 +258,19 @@ def _closest_points(plan: Plan) -> tuple[PathPoint, PathPoint]:
     return leader, own
 
 
-def forecast_document(t: Second, ident: str, ahead: Forecast) -> ForecastChanged:
-    """The path that will be flown: its turns point by point, its straights by their ends."""
+def forecast_document(
+    t: Second, ident: str, ahead: Forecast, spread: Spread = CERTAIN
+) -> ForecastChanged:
+    """The path that will be flown: its turns point by point, its straights by their ends.
+
+    Args:
+        t: flight time [s].
+        ident: of the aircraft.
+        ahead: the flight ahead.
+        spread: how uncertain is what it begins with.
+    """
     rows = ahead.own[max(round(t - ahead.t), 0) :]
-    kept, last = [0], 0
-    for k in range(1, len(rows) - 1):
-        if abs(rows[k, 2] - rows[last, 2]) > BENT or k - last >= STRAIGHT_FOR:
-            kept.append(k)
-            last = k
-    kept.append(len(rows) - 1)
+    kept = rows_to_draw(rows)
     times, points = t + np.array(kept, dtype=float), rows[kept]
     least, at = ahead.least(t)
     own, leader = _point_at(ahead.own, ahead.t, at), _point_at(ahead.leader, ahead.t, at)
@@ -278,6 +284,34 @@ def forecast_document(t: Second, ident: str, ahead: Forecast) -> ForecastChanged
         least_separation=least if least < inf else hypot(own.x - leader.x, own.y - leader.y),
         pursuer_at_closest=own,
         leader_at_closest=leader,
+        aside=() if spread == CERTAIN else tuple(_aside(times - t, ahead.join_time - t, spread)),
+    )
+
+
+def _aside(ahead: FloatArray, joins_in: Second, spread: Spread) -> list[float]:
+    """How far beside its path an aircraft may come after some times [m].
+
+    A wind that is otherwise carries it off all the while. A leader that is elsewhere, or flies
+    otherwise, moves the end of the path, and with it the rest in proportion to how far on it is.
+    """
+    carried = spread.wind * ahead
+    share = np.clip(ahead / max(joins_in, 1.0), 0.0, 1.0)
+    moved = share * np.hypot(spread.place, spread.velocity * ahead)
+    found: list[float] = (SURE * np.hypot(carried, moved)).tolist()
+    return found
+
+
+def fan_document(t: Second, names: PairNames, fan: Fan) -> FanChanged:
+    """Where a pursuer would join after turns that its leader has not announced."""
+    return FanChanged(
+        t=t,
+        ident=names.pursuer,
+        joins=tuple(
+            FanJoin(turn=join.turn, joins=join.joins, x=join.x, y=join.y, least=join.least)
+            for join in fan.joins
+        ),
+        most_saved=fan.most_saved,
+        mean_saved=fan.mean_saved,
     )
 
 

@@ -118,7 +118,8 @@ class Pursuit:
     """When that was, flight time [s]."""
     doubted: int = 0
     """For how many seconds the leader has not flown what it declared."""
-
+    fan_due: Second = 0.0
+    """When the fan that is open is to be made anew, flight time; 0 while none is open [s]."""
     heard: Belief | None = None
     """What was last heard of the leader; `None` while its reports are received."""
 

@@ -6,10 +6,12 @@ Everything else that flies a plan, live or not, iterates over these documents.
 """
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from itertools import count
 from typing import get_args
 
 from relguide.flying.aircraft_documents import AircraftCard, LinkCard
+from relguide.flying.belief import Belief
 from relguide.flying.braking import learn_braking
 from relguide.flying.cards import wind_card
 from relguide.flying.crew import obey_crew
@@ -22,6 +24,7 @@ from relguide.flying.documents import (
     Sample,
     Unable,
 )
+from relguide.flying.fans import Wants, follow_fan, no_fans
 from relguide.flying.fleet import Fleet
 from relguide.flying.guidance.choice import Guide, guide_by
 from relguide.flying.guidances import Guidance, expect_guidance
@@ -48,6 +51,9 @@ from relguide.planning.plan import Planner, plan
 from relguide.planning.situation import Wind
 from relguide.units import Metre, Second
 
+Fan = Callable[[Pursuit, Belief], Iterator[Document]]
+"""What is said of joins after turns that a leader has not announced."""
+
 
 def simulate(
     world: World,
@@ -64,6 +70,7 @@ def simulate(
     after_joining: Second = 120.0,
     engagement: Engagement = "engaged",
     guidance: Guidance = "relguide",
+    wants_fan: Wants = no_fans,
 ) -> Iterator[Document]:
     """Fly a world and say what happens, in order of time.
 
@@ -82,6 +89,8 @@ def simulate(
         engagement: how far guidance is engaged at the start.
         guidance: of all pursuers: relguide's, or a baseline, which asks no planner and is named in
             its place.
+        wants_fan: asked with the flight time when a fan of joins is due, while a leader's intent is
+            not known; by default there is none.
 
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.
@@ -89,6 +98,7 @@ def simulate(
     expect("world", world, World)
     expect_function("planner", planner)
     expect_function("commands", commands)
+    expect_function("wants_fan", wants_fan)
     for name, value in (("scenario", scenario), ("title", title), ("planner_name", planner_name)):
         text(name, value)
     expect_whole("seed", seed, 0)
@@ -102,17 +112,19 @@ def simulate(
         raise ValueError(f"after_joining must be 0 s or more, not {after_joining:g} s.")
     expect_engagement(engagement)
     expect_guidance(guidance)
+    fan = partial(follow_fan, planner=planner, wants=wants_fan)
     guide = guide_by(guidance, planner)
     by = planner_name if guidance == "relguide" else guidance
     start = _start_document(world, by, scenario, title, step, seed)
     return _simulate(
-        world, guide, start, commands, step, a_sample, until, after_joining, engagement
+        world, guide, fan, start, commands, step, a_sample, until, after_joining, engagement
     )
 
 
 def _simulate(
     world: World,
     guide: Guide,
+    fan: Fan,
     start: FlightStarted,
     commands: Callable[[Second], Iterable[Command]],
     step: Second,
@@ -131,7 +143,7 @@ def _simulate(
         for command in commands(t):
             yield from _obey(command, fleet, pursuits, t)
         for one in pursuits:
-            yield from _guide(one, fleet, guide, t)
+            yield from _guide(one, fleet, guide, fan, t)
         end = _end(pursuits, fleet, t, until, after_joining)
         if end is not None:
             yield from _finish(pursuits, fleet, t, *end)
@@ -216,7 +228,7 @@ def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) ->
     yield from said
 
 
-def _guide(one: Pursuit, fleet: Fleet, guide: Guide, t: Second) -> Iterator[Document]:
+def _guide(one: Pursuit, fleet: Fleet, guide: Guide, fan: Fan, t: Second) -> Iterator[Document]:
     """One act of guidance, and what is new of the leader."""
     learn_braking(one, fleet)
     yield from doubt_leader(one, fleet, t)
@@ -231,10 +243,11 @@ def _guide(one: Pursuit, fleet: Fleet, guide: Guide, t: Second) -> Iterator[Docu
         yield document
     if advice.forecast is not None and advice.forecast is not one.shown_forecast:
         one.shown_forecast = advice.forecast
-        yield forecast_document(t, one.names.pursuer, advice.forecast)
+        yield forecast_document(t, one.names.pursuer, advice.forecast, belief.spread)
     if advice.joined and not one.metrics.joined:
         one.metrics = one.metrics._replace(joined=True, join_time=t)
     one.advice = advice
+    yield from fan(one, belief)
     fleet.control(one.pursuer, advice.control)
 
 

@@ -4,10 +4,19 @@ As in `documents`, `contract/wire.py` gives each its JSON form.
 """
 
 from dataclasses import dataclass
+from typing import Literal
 
 from relguide.flying.plan_documents import PathPoint, PathSegment, Separation
 from relguide.planning.optimality import FixedBy
-from relguide.units import Metre, PerMetre, Radian, Second, SecondPerMetre, SecondPerRadian
+from relguide.units import (
+    Metre,
+    Millisecond,
+    PerMetre,
+    Radian,
+    Second,
+    SecondPerMetre,
+    SecondPerRadian,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -148,3 +157,35 @@ class RegularCheck:
     """Over the ground; node n, the last, is the pursuer's present state."""
     segments: tuple[PathSegment, ...]
     """In the order in which they are flown."""
+
+
+ComparedPlanner = Literal["exact", "network", "regular_dp", "printed_network"]
+"""exact: all words are solved; network: networks pick them; regular_dp: the paper's tree does;
+printed_network: the paper's network, flown as it is."""
+Verdict = Literal["planned", "refused", "handed_over", "no_plan", "preparing"]
+"""planned: its own path may be flown; refused: it may not; handed_over: it has none, and the exact
+planner answers; no_plan: nothing can be flown; preparing: its kernels are being compiled."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannerVerdict:
+    """What one planner would fly in a situation, and what is wrong with that."""
+
+    planner: ComparedPlanner
+    status: Verdict
+    """Whether its own path may be flown."""
+    message: str
+    """The same in a sentence, with what is wrong or how good it is."""
+    word: str = ""
+    """Its letters; empty where it has no path."""
+    time_to_converge: Second = 0.0
+    """When its path ends; 0 as above."""
+    over_exact: Second = 0.0
+    """How much later than the exact plan that is; below 0 for a path that may not be flown. 0 where
+    either has none."""
+    least: Metre = 0.0
+    """Least separation on it; 0 where it has no path."""
+    compute: Millisecond = 0.0
+    """How long it takes to find, once all that it needs is loaded."""
+    segments: tuple[PathSegment, ...] = ()
+    """The path, in the order flown."""

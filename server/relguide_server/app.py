@@ -33,8 +33,9 @@ from relguide_server.http.proxy import ProxyPath
 from relguide_server.http.request_log import RequestLog
 from relguide_server.jobs.admission import Admission
 from relguide_server.jobs.worker_pool import WorkerPool
-from relguide_server.planning import areas, plans, simulations
+from relguide_server.planning import areas, flown_scenarios, plans, simulations
 from relguide_server.planning.drift import DriftCheck
+from relguide_server.planning.flown_scenarios import KeptRecordings
 from relguide_server.planning.plan_service import PlanService
 from relguide_server.planning.tasks import load
 from relguide_server.readiness import (
@@ -137,7 +138,7 @@ def create_app(
         name, planner, quick=quick, preparation=preparation, workers=workers, metrics=metrics
     )
     app.state.settings, app.state.catalogue = settings, catalogue
-    app.state.records = records
+    app.state.records, app.state.recordings = records, KeptRecordings()
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     app.router.routes[:0] = plans.router.routes  # most requests are for these
     for part in (
@@ -145,6 +146,7 @@ def create_app(
         areas.router,
         routes.router,
         simulations.router,
+        flown_scenarios.router,
         record_routes.router,
         scene_relay.router,
         stream_docs.router,

@@ -2,8 +2,9 @@
 
 The first start of an installation compiles in processes of its own. Meanwhile the page is shown,
 and flies as soon as what flights need is compiled; the service is ready once it can plan at the
-limit as well. Proofs are compiled when the first request asks for one. A request that needs more
-than there is is refused with 503 and the time to try again; a flight under way waits.
+limit as well. Proofs, networks and the tree are compiled when the first request asks for them. A
+request that needs more than there is is refused with 503 and the time to try again; a flight under
+way waits.
 """
 
 import gc
@@ -34,10 +35,15 @@ from relguide_server.http.errors import Refusal, log, run_logged
 from relguide_server.records.service import RecordsReport
 from relguide_server.settings import ServiceSettings
 
-PLANNED_WITH = {"exact": ("limited",), "network": ("limited", "networks")}
+PLANNED_WITH = {
+    "exact": ("limited",),
+    "network": ("limited", "networks"),
+    "regular_dp": ("limited", "tree"),
+    "printed_network": ("limited",),
+}
 """Steps a planner needs for any situation; without the limit "flying" is enough."""
 
-ON_DEMAND = ("proofs",)
+ON_DEMAND = ("proofs", "networks", "tree")
 """Steps that are compiled when a request first needs them."""
 USUAL_WAIT = 10
 """After so long a client may ask again while nothing is known of the pace [s]."""
@@ -96,12 +102,12 @@ class Preparation:
         """
         self._steps = tuple(steps)
         self._needed = tuple(needed)
-        self._missing = missing((*steps, *ON_DEMAND)) if steps else ()
+        self._on_demand = tuple(step for step in ON_DEMAND if step not in steps) if steps else ()
+        self._missing = missing((*steps, *self._on_demand)) if steps else ()
         self._asked: tuple[str, ...] = ()
         """Steps to be compiled after those from the start."""
         self._state: Preparing | None = None
         self._began = monotonic()
-        self._usable: set[str] = set()
         self._rehearsed = False
         self._changed = threading.Condition()
         self._stopped = threading.Event()
@@ -132,7 +138,7 @@ class Preparation:
         """What is compiled and what is being compiled: a `Readiness`."""
         state = self._state
         now = {"name": state.title, "share": round(state.share, 2)} if state else None
-        named = (*self._steps, *ON_DEMAND) if self._steps else ()
+        named = (*self._steps, *self._on_demand)
         return {
             "status": "ready" if self.ready else "preparing",
             "warm": {name: self.has(name) for name in named},
@@ -152,9 +158,9 @@ class Preparation:
         if self.has(*steps):
             return
         first = next(step for step in steps if not self.has(step))
-        if first in ON_DEMAND:
+        if first in self._on_demand:
             self._ask_for(first)
-        occasion = "Compiled at the first request" if first in ON_DEMAND else "First start"
+        occasion = "Compiled at the first request" if first in self._on_demand else "First start"
         raise Refusal(
             503,
             f"{occasion}: {self._progress()}. What you ask for needs {STEPS[first].title}: "
@@ -191,19 +197,7 @@ class Preparation:
         Raises:
             Refusal: 503, as in `require`.
         """
-        steps = PLANNED_WITH.get(name, ())
-        self.require("flying", *steps)
-        if not self._steps or name in self._usable or set(steps) <= set(self._steps):
-            return
-        if missing(steps):
-            raise Refusal(
-                503,
-                f"The planner {name} is not compiled here: `relguide warm-up` does that, or start "
-                f"the service with RELGUIDE_PLANNER={name}.",
-                kind="preparing",
-                headers={"Retry-After": "30"},
-            )
-        self._usable.add(name)
+        self.require("flying", *PLANNED_WITH.get(name, ()))
 
     def admit(self, situation: Situation, name: str) -> None:
         """Refuse a situation whose plan needs what is not compiled yet.

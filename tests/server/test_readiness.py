@@ -11,7 +11,7 @@ from relguide_server.app import create_app
 from relguide_server.flights.catalogue import library_catalogue
 from relguide_server.http.errors import Refusal
 from relguide_server.planning.plans import EXAMPLE
-from relguide_server.readiness import Preparation, steps_for
+from relguide_server.readiness import ON_DEMAND, Preparation, steps_for
 from relguide_server.settings import ServiceSettings
 
 from benchmarks.deadline import draw
@@ -116,7 +116,7 @@ def test_a_first_start_answers_what_it_can(compiled: Compiling) -> None:
         report = client.get("/readyz")
         assert report.status_code == 503
         assert report.json()["preparing"] == {"name": "the limited search", "share": 0.4}
-        warm = {name: name == "flying" for name in (*STEPS_SERVED, "proofs")}
+        warm = {name: name == "flying" for name in (*STEPS_SERVED, *ON_DEMAND)}
         assert report.json()["warm"] == warm
 
         compiled("flying", "limited", title=STEPS["areas"].title)
@@ -151,6 +151,29 @@ def test_proofs_are_compiled_once_a_request_asks_for_one(compiled: Compiling) ->
         _until(lambda: preparation.has("proofs"))
         assert compiled.asked[1:] == [["proofs"]]
         assert "hamiltonian_residual" in str(client.post(proof, json=EXAMPLE).json())
+
+
+def test_networks_are_compiled_once_a_request_asks_for_them(compiled: Compiling) -> None:
+    """A comparison meanwhile says of each planner whether it is there."""
+    preparation = Preparation(STEPS_SERVED)
+    with TestClient(create_app(ServiceSettings(workers=0), preparation=preparation)) as client:
+        compiled(*STEPS_SERVED)
+        compiled.end()
+        _until(lambda: client.get("/readyz").status_code == 200)
+        asked = "/api/v1/plans?planner=network&max_ms=10000"
+        refused = client.post(asked, json=EXAMPLE)
+        assert refused.status_code == 503
+        assert refused.json()["detail"].startswith("Compiled at the first request: ")
+        compared = client.post("/api/v1/plans/compare", json=EXAMPLE).json()["planners"]
+        assert [each["status"] for each in compared] == [
+            "planned", "preparing", "preparing", "refused",
+        ]  # fmt: skip
+        assert "networks" in compared[1]["message"]
+        compiled("networks")
+        compiled.end()
+        _until(lambda: preparation.has("networks"))
+        assert compiled.asked[1] == ["networks"]
+        assert client.post(asked, json=EXAMPLE).json()["status"] == "planned"
 
 
 def test_a_flight_waits_and_a_request_does_not(compiled: Compiling) -> None:

@@ -37,6 +37,8 @@ const ROOT = "api/v1";
 const PATIENCE = 8000;
 /** The first flight of a new installation waits until the planner is compiled. */
 const FIRST_FLIGHT_PATIENCE = 120_000;
+/** A flight to its end takes a second, and may wait while others fly. */
+const FLOWN_PATIENCE = 90_000;
 /** A long flight on record takes some seconds to be read. */
 const RECORD_PATIENCE = 60_000;
 
@@ -57,13 +59,31 @@ export function commandFlight(id: string, command: Command): Promise<Answer<Flig
   return request("POST", `${ROOT}/flights/${encodeURIComponent(id)}/commands`, command);
 }
 
-/** A plan with the other paths to the slot, those that are drawn included; within `most` [ms]. */
+/** A plan with its flight and the other paths to the slot, those that are drawn included; within `most` [ms]. */
 export function planSituation(
   situation: SituationBody,
   most: number,
 ): Promise<Answer<PlanAnswer & { readonly others?: readonly OtherPathCard[] }>> {
-  const query = `include=alternatives,paths&max_ms=${most}`;
+  const query = `include=alternatives,paths,flown&max_ms=${most}`;
   return request("POST", `${ROOT}/plans?${query}`, situation);
+}
+
+/** A plan with Pontryagin's conditions along it, H and the costates. */
+export function checkSituation(situation: SituationBody): Promise<Answer<PlanAnswer>> {
+  return request("POST", `${ROOT}/plans?include=optimality&max_ms=2000`, situation);
+}
+
+/** A scenario flown to its end at once, as a recording. */
+export async function flyScenario(name: string): Promise<Answer<Blob>> {
+  const path = `${ROOT}/scenarios/${encodeURIComponent(name)}/flight`;
+  try {
+    const response = await fetch(path, { signal: AbortSignal.timeout(FLOWN_PATIENCE) });
+    if (response.ok) return { kind: "done", value: await response.blob() };
+    const sentence = sentenceOf(parse(await response.text()), response.status);
+    return { kind: "refused", status: response.status, sentence };
+  } catch {
+    return { kind: "refused", status: 0, sentence: "The server does not answer." };
+  }
 }
 
 /** Regions of words and lines of equal time. */
@@ -96,9 +116,18 @@ export function listRecords(
   return request("GET", `${ROOT}/records/flights?limit=${most}`);
 }
 
-/** A flight on record as a recording, as a file would hold it. */
-export async function readRecord(id: string): Promise<Answer<Blob>> {
-  const path = `${ROOT}/records/flights/${encodeURIComponent(id)}/export?format=jsonl`;
+/** The forms in which a flight on record can be had. */
+export const EXPORT_FORMS = ["jsonl", "csv", "parquet", "geojson", "czml"] as const;
+export type ExportForm = (typeof EXPORT_FORMS)[number];
+
+/** A flight on record as a file. `place`: where on the earth its x = y = 0 is, for a flight that has none. */
+export async function readRecord(
+  id: string,
+  form: ExportForm = "jsonl",
+  place: { readonly lat: number; readonly lon: number } | null = null,
+): Promise<Answer<Blob>> {
+  const where = place === null ? "" : `&lat_deg=${place.lat}&lon_deg=${place.lon}`;
+  const path = `${ROOT}/records/flights/${encodeURIComponent(id)}/export?format=${form}${where}`;
   try {
     const response = await fetch(path, { signal: AbortSignal.timeout(RECORD_PATIENCE) });
     if (response.ok) return { kind: "done", value: await response.blob() };

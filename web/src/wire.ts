@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-f1d48433680d";
+export const PROTOCOL = "relguide-f71472323faf";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -106,6 +106,7 @@ export type Document =
   | Unable
   | SeparationLost
   | ForecastChanged
+  | FanChanged
   | Sample
   | FlightEnded;
 
@@ -365,6 +366,47 @@ export interface EngagementChanged {
   message: string;
 }
 
+/**
+ * Where a pursuer would join after turns that its leader may begin and has not announced.
+ *
+ * Said where somebody watches, while the leader's intent is not known and a path is proposed or
+ * flown. What is saved is how much sooner it joins if it knows of a turn a minute before it begins
+ * than if it learns of it as it begins; both are forecast by flying the closed loop ahead.
+ */
+export interface FanChanged {
+  kind: "fan_changed";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  /**
+   * For turns of −30°, −20° … 30°; those after which there is no path are left out. None at all
+   * once the intent is known, or the pursuer has joined: the fan is closed.
+   */
+  joins: FanJoin[];
+  /** By knowing the turn for which that saves the most; 0 where nothing is saved. */
+  most_saved_s: number;
+  /** On average of all these turns. */
+  mean_saved_s: number;
+}
+
+/** Where a pursuer would join if its leader began a turn now. */
+export interface FanJoin {
+  /** To the right of where the leader flies now; negative to the left. */
+  turn_deg: number;
+  /** When, flight time. */
+  joins_s: number;
+  /** East. */
+  x_m: number;
+  /** North. */
+  y_m: number;
+  /** Least separation on the way, as forecast. */
+  least_m: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number;
+}
+
 /** How the flight went: the last document. */
 export interface FlightEnded {
   kind: "flight_ended";
@@ -418,6 +460,44 @@ export interface FlightStatus {
   version: string;
 }
 
+/** The flight of a plan's situation, guidance engaged at once: rolls and braking included. */
+export interface FlownCard {
+  /** It joins. */
+  status: "flown";
+  /** When it has joined, from the situation on. */
+  join_s: number;
+  /** How close it comes until then. */
+  least_m: number;
+  /** When it is closest. */
+  at_s: number;
+  /** Of the path that guidance flies: it may be another than the plan's. */
+  word: string;
+  /** Why it takes another time than the plan, in sentences; empty if it does not. */
+  reason: string;
+  /** What guidance plans to fly: straight until it can turn, and without rolls and braking. */
+  segments: PathSegment[];
+  /** Where it goes, until it has joined: to be drawn with straight lines between them. */
+  points: FlownPoint[];
+}
+
+/** A place along a path as an aircraft will fly it, over the ground. */
+export interface FlownPoint {
+  /** From the beginning of the path. */
+  t_s: number;
+  /** East. */
+  x_m: number;
+  /** North. */
+  y_m: number;
+  /** Where the nose points. */
+  heading_deg: number;
+  /** True airspeed. */
+  tas_mps: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number;
+}
+
 /** A situation to be flown. */
 export interface FlownSituationBody {
   pursuer: LocalPursuer | GeodeticPursuer;
@@ -451,6 +531,11 @@ export interface ForecastChanged {
   pursuer_at_closest: PathPoint;
   /** Where its leader is then. */
   leader_at_closest: PathPoint;
+  /**
+   * How far to either side of the line it may come at each point, by what is not certain of the
+   * leader's track and of the wind (2 σ of what is believed now); none where all is exact.
+   */
+  aside_m?: number[];
   /** WGS84; there if the situation came with latitudes. */
   lat_deg?: number[];
   /** WGS84; there if the situation came with latitudes. */
@@ -681,6 +766,14 @@ export interface NoPlanCard {
   lower_bound_s: number;
 }
 
+/** A plan that no aircraft flies, and why. */
+export interface NotFlownCard {
+  /** It does not join, or is not begun. */
+  status: "not_flown";
+  /** In a sentence. */
+  reason: string;
+}
+
 /** What is proved of a plan's time; and, if asked for, how it meets Pontryagin's conditions. */
 export interface OptimalityCard {
   /**
@@ -782,6 +875,11 @@ export interface PlanCard {
    * If asked for.
    */
   others?: OtherPathCard[];
+  /**
+   * The flight of it, with guidance engaged at once.
+   * If asked for.
+   */
+  flown?: FlownCard | NotFlownCard;
 }
 
 /** A new plan is flown. */
@@ -865,6 +963,8 @@ export interface PromiseChanged {
   ident: string;
   /** How long until joined, braking included: as forecast by flying the closed loop ahead. */
   promised_s: number;
+  /** The same as was last said, counted from now; negative if that instant has passed. */
+  was_s?: number;
   message: string;
 }
 

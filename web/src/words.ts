@@ -54,6 +54,12 @@ export const ELEMENTS: readonly Element[] = [
     "key-leader-symbol",
   ),
   element(
+    "other",
+    "Other flight",
+    "the one this is compared with: its path so far dashed, its aircraft broken; the path of this one thin",
+    "key-other",
+  ),
+  element(
     "offscale",
     "Leader off the map",
     "half a symbol in its direction, with bearing and distance",
@@ -112,6 +118,18 @@ export const ELEMENTS: readonly Element[] = [
     "others",
     "Other paths",
     "thin, dotted: slower, or too close to the leader",
+    "key-dotted",
+  ),
+  element(
+    "fan",
+    "Joins if it turns",
+    "dotted, a hollow diamond at each end: where and when own ship joins if the leader, whose intent is not known, turns by 10°, 20° or 30° now",
+    "key-dotted",
+  ),
+  element(
+    "tube",
+    "Width of the path",
+    "dotted, on both sides of it: so far aside own ship may come, by what is uncertain of the leader and the wind",
     "key-dotted",
   ),
   element(

@@ -1,4 +1,3 @@
-import { signal } from "@preact/signals";
 import { render } from "preact";
 import { act } from "preact/test-utils";
 import { afterEach, describe, expect, test, vi } from "vitest";
@@ -17,8 +16,7 @@ import { ScenarioPicker } from "../src/panels/scenario-picker";
 import { Scene } from "../src/scene/scene";
 import { createSession } from "../src/session";
 import { createFlightStore } from "../src/store/flight";
-import { Clock } from "../src/timeline/clock";
-import { outlineOf } from "../src/timeline/outline";
+import { Timeline } from "../src/timeline/timeline";
 import { NM } from "../src/units";
 import {
   alert,
@@ -92,7 +90,7 @@ describe("panels", () => {
         <Aircraft session={session} actions={silentActions()} />
         <Alternatives session={session} />
         <Events session={session} />
-        <Scene session={session} />
+        <Scene session={session} actions={silentActions()} />
       </>,
       place,
     );
@@ -370,19 +368,9 @@ describe("panels", () => {
     expect(actions.start).toHaveBeenCalledWith("fig_6b");
   });
 
-  test("play, rate and restart", () => {
-    const { store, session, actions } = flying();
-    render(
-      <>
-        <FlightControls session={session} actions={actions} />
-        <Clock session={session} actions={actions} outline={signal(outlineOf(store.history()))} />
-      </>,
-      place,
-    );
-    act(() => button("×20").click());
-    expect(actions.setRate).toHaveBeenCalledWith(20);
-    act(() => button("Pause").click());
-    expect(actions.pause).toHaveBeenCalled();
+  test("restart begins the scenario anew", () => {
+    const { session, actions } = flying();
+    render(<FlightControls session={session} actions={actions} />, place);
     act(() => button("Restart").click());
     expect(actions.start).toHaveBeenCalledWith("fig_6b");
   });
@@ -480,7 +468,7 @@ describe("panels", () => {
   test("the scene is asked for once there is a position", () => {
     const { session } = flying();
     const aside = document.createElement("div"); // outside the document, so that nothing is loaded
-    render(<Scene session={session} />, aside);
+    render(<Scene session={session} actions={silentActions()} />, aside);
     expect(aside.querySelector("iframe")?.getAttribute("src")).toBe("/scene/one/");
     expect(aside.querySelector("iframe")?.title).not.toBe("");
   });
@@ -489,6 +477,7 @@ describe("panels", () => {
     const { session, actions } = flying();
     render(
       <>
+        <Timeline session={session} actions={actions} />
         <FlightControls session={session} actions={actions} />
         <LeaderControls session={session} actions={actions} />
       </>,

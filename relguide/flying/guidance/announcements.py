@@ -100,10 +100,12 @@ class ModeChange:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NewPromise:
-    """The pursuer joins at another time than was last said, by the same path."""
+    """The pursuer joins at another time than was last said."""
 
     joins: Second
     """When, flight time [s]."""
+    was: Second
+    """When it was last said to join, flight time [s]."""
     message: str
 
 
@@ -214,6 +216,13 @@ def summary(plan: Plan, joins_in: Second) -> str:
     """Its word, when it joins and the separation it keeps, in a clause."""
     least = plan.certificate.least_separation / NM
     return f"{plan.word} joins in {clock(joins_in)} and keeps {least:.1f} NM"
+
+
+def promise_sentence(joins_in: Second, was_in: Second) -> str:
+    """When it joins, and when that was to be as was last said."""
+    if was_in <= 0.0:
+        return f"Joins in {clock(joins_in)}, and should have joined by now."
+    return f"Joins in {clock(joins_in)}, was {clock(was_in)}."
 
 
 def clock(duration: Second) -> str:

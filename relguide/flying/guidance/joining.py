@@ -1,38 +1,66 @@
 """What a crew hears in capture and follow: when it joins, and whether the spacing is kept."""
 
 from relguide.flying.belief import Belief
-from relguide.flying.guidance.announcements import Alerted, Event, NewPromise, clock
+from relguide.flying.guidance.announcements import Alerted, Event, NewPromise, promise_sentence
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.memory import LONG_AGO, Memory
+from relguide.flying.guidance.leader_news import is_steady
+from relguide.flying.guidance.memory import LONG_AGO, Memory, Promise
 from relguide.flying.guidance.monitor import Outlook
 from relguide.flying.guidance.plan_news import may_speak
+from relguide.flying.guidance.settings import Settings
 from relguide.kernels.flight.guide import Act
 from relguide.planning.phrases import distance
+from relguide.units import Second
 
 
 def promise_anew(
     memory: Memory, belief: Belief, assignment: Assignment
 ) -> tuple[Memory, list[Event]]:
-    """Say when it joins, if that is no longer what was said and the leader has settled.
+    """Say when it joins, if that is no longer what was said: at once, but not each second.
 
-    A new plan says so itself. But the same path may join at another time, since the leader flies
+    A plan that is announced says so itself. But while the leader does something new, plans are
+    flown that are not announced yet; the same path may join at another time, since the leader flies
     otherwise; and in capture the path is the leader's own.
     """
-    settings, ahead, last = assignment.settings, memory.forecast, memory.announced
-    if memory.mode not in ("converge", "capture") or memory.pending is not None:
+    ahead, said = memory.forecast, memory.promise
+    if memory.mode not in ("converge", "capture"):
         return memory, []
-    if ahead is None or last is None or not ahead.joins:
+    if ahead is None or said is None or not ahead.joins:
         return memory, []
-    later, left = ahead.join_time - last.joins, ahead.join_time - belief.t
-    if abs(later) <= max(settings.shown_time, settings.shown_share * left):
+    memory = _compare_later_plans(memory, belief, assignment)
+    joins, settings = ahead.join_time, assignment.settings
+    settled = is_steady(memory, belief, assignment)
+    size = _change(joins, said.joins, belief, settings, settled=settled or said.settled)
+    if size <= 1.0:
         return memory, []
+    if belief.t < said.t + max(settings.promise_every / size, settings.promise_soonest):
+        return memory, []
+    message = promise_sentence(joins - belief.t, said.joins - belief.t)
+    memory = memory._replace(promise=Promise(belief.t, joins, settled))
+    return memory, [NewPromise(joins=joins, was=said.joins, message=message)]
+
+
+def _compare_later_plans(memory: Memory, belief: Belief, assignment: Assignment) -> Memory:
+    """Compare plans to come with the present join, once the leader has settled."""
+    ahead, last, settings = memory.forecast, memory.announced, assignment.settings
+    if ahead is None or last is None or memory.pending is not None:
+        return memory
+    if _change(ahead.join_time, last.joins, belief, settings, settled=True) <= 1.0:
+        return memory
     if not may_speak(memory, belief, assignment):
-        return memory, []
-    than = "later" if later > 0.0 else "sooner"
-    message = f"Joins in {clock(left)}, {clock(abs(later))} {than} than was said."
+        return memory
     quiet = belief.t + settings.announce_after
-    memory = memory._replace(announced=last._replace(joins=ahead.join_time, quiet_until=quiet))
-    return memory, [NewPromise(joins=ahead.join_time, message=message)]
+    return memory._replace(announced=last._replace(joins=ahead.join_time, quiet_until=quiet))
+
+
+def _change(
+    joins: Second, was: Second, belief: Belief, settings: Settings, *, settled: bool
+) -> float:
+    """How much sooner or later a join is than another; above 1 a crew has to know."""
+    least, share = settings.shown_time, settings.shown_share
+    if not settled:
+        least, share = settings.unsettled_time, settings.unsettled_share
+    return abs(joins - was) / max(least, share * (joins - belief.t))
 
 
 def judge_spacing(

@@ -56,6 +56,17 @@ class Announced(NamedTuple):
     """What follows a change of the leader waits until then, flight time [s]."""
 
 
+class Promise(NamedTuple):
+    """What was last said of the join: with a plan, or alone."""
+
+    t: Second
+    """When it was said, flight time [s]."""
+    joins: Second
+    """When it was to be, flight time [s]."""
+    settled: bool
+    """Whether the leader had settled then."""
+
+
 class StandingAlert(NamedTuple):
     """The alert that stands."""
 
@@ -100,6 +111,8 @@ class Memory(NamedTuple):
     """When the leader last did something new, flight time [s]."""
     announced: Announced | None
     """`None` before the first plan."""
+    promise: Promise | None
+    """`None` as above."""
     proposed: Announced | None
     """The proposal that stands; `None` if there is none, or guidance is engaged."""
     pending: PlanReason | None
@@ -167,6 +180,7 @@ def begin(belief: Belief, engagement: Engagement = "engaged") -> Memory:
         captured=belief.leader.heading,
         changed=LONG_AGO,
         announced=None,
+        promise=None,
         proposed=None,
         pending="engaged",
         asked=LONG_AGO,

@@ -20,7 +20,7 @@ from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.guidance.commit.proposal import NoProposal, NotBetter, Proposal
 from relguide.flying.guidance.commit.shown_plan import shown_rest
 from relguide.flying.guidance.leader_news import is_steady
-from relguide.flying.guidance.memory import Announced, Memory, enter
+from relguide.flying.guidance.memory import Announced, Memory, Promise, enter
 from relguide.flying.guidance.settings import Settings
 from relguide.flying.modes import NUMBERS
 from relguide.kernels.flight.guide import Progress
@@ -65,15 +65,27 @@ def fly_proposal(
     if announced:
         begins = reason in ("engaged", "resumed")
         pause = 0.0 if begins else assignment.settings.announce_after
-        memory = _announce(memory, belief, shown, joins, pause)
+        memory = _announce(memory, belief, assignment, shown, joins, pause)
     elif fresh:
         memory = memory._replace(pending=reason)
     return memory, [*events, *news, said]
 
 
-def _announce(memory: Memory, belief: Belief, shown: Plan, joins: Second, pause: Second) -> Memory:
+def _announce(
+    memory: Memory,
+    belief: Belief,
+    assignment: Assignment,
+    shown: Plan,
+    joins: Second,
+    pause: Second,
+) -> Memory:
     said = Announced(belief.t, joins, shown.trajectory, belief.t + pause)
-    return memory._replace(announced=said, pending=None, expected=expectation(belief))
+    return memory._replace(
+        announced=said,
+        promise=Promise(belief.t, joins, is_steady(memory, belief, assignment)),
+        pending=None,
+        expected=expectation(belief),
+    )
 
 
 def may_speak(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
@@ -129,7 +141,7 @@ def announce_pending(
     said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
     pause = assignment.settings.announce_after
     memory = memory._replace(fallbacks=memory.fallbacks + committed.plan.fell_back)
-    return _announce(memory, belief, shown, joins, pause), [said]
+    return _announce(memory, belief, assignment, shown, joins, pause), [said]
 
 
 def count_refusal(

@@ -138,6 +138,16 @@ class Settings:
     """… joins so much sooner or later,"""
     shown_share: float = 0.05
     """… and by this much of the length or the time to go."""
+    promise_every: Second = 10.0
+    """That it joins at another time is said no more often than this; but a change three times as
+    large as is needed to be news waits for a third of it, …"""
+    promise_soonest: Second = 3.0
+    """… and none for less than this."""
+    unsettled_time: Second = 30.0
+    """Once it was said while the leader turns, only so large a change is said before it has
+    settled, …"""
+    unsettled_share: float = 0.25
+    """… and by this much of the time to go: a turn moves the join each second."""
     retry: Second = 5.0
     """Without a plan, one is asked for this often, and less often …"""
     retry_share: float = 0.2

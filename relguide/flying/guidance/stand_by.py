@@ -66,6 +66,7 @@ def stop(memory: Memory, belief: Belief, to: Engagement, why: str) -> tuple[Memo
         committed=None,
         forecast=None,
         announced=None,
+        promise=None,
         pending="engaged",
         asked=LONG_AGO,
         proposed=None,

@@ -75,11 +75,10 @@ def regular_planner(situation: Situation) -> Plan | NoPlan:
     """
     expect("situation", situation, Situation)
     started = perf_counter_ns()
-    frame = slot_frame(situation, situation.leader.trajectory)
-    for candidate in _propose(situation, frame):
+    for candidate in propose(situation):
         certificate = certify(candidate.trajectory, situation)
         if certificate.holds:
-            return _plan(situation, frame, candidate, certificate, started)
+            return _plan(situation, candidate, certificate, started)
     exact = plan(situation)
     if isinstance(exact, NoPlan):
         return exact
@@ -87,12 +86,9 @@ def regular_planner(situation: Situation) -> Plan | NoPlan:
 
 
 def _plan(
-    situation: Situation,
-    frame: SlotFrame,
-    candidate: Candidate,
-    certificate: Certificate,
-    started: int,
+    situation: Situation, candidate: Candidate, certificate: Certificate, started: int
 ) -> Plan:
+    frame = slot_frame(situation, situation.leader.trajectory)
     least = max(direct_time(frame.x, frame.y, frame.alpha), frame.t_release)
     return Plan(
         situation=situation,
@@ -107,8 +103,12 @@ def _plan(
     )
 
 
-def _propose(situation: Situation, frame: SlotFrame) -> Iterator[Candidate]:
-    """The word of the nearest path; then that path's first pair, and the word of the rest."""
+def propose(situation: Situation) -> Iterator[Candidate]:
+    """The word of the nearest path; then that path's first pair, and the word of the rest.
+
+    Whether they keep d_min is not asked here: `certify` judges that.
+    """
+    frame = slot_frame(situation, situation.leader.trajectory)
     if not LEAST_RATIO <= frame.alpha <= MOST_RATIO:
         return
     pairs = nearest_pairs(tree_for(ratios_of(situation, frame)), frame)

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import islice
+from math import inf
+from time import monotonic
 from typing import Annotated
 
 from fastapi import Depends
@@ -19,6 +21,8 @@ from relguide_server.flights.live_flight import Source
 
 ENDLESS = 1e9
 """A flight goes on until somebody ends it, or nobody watches it any more [s]."""
+FAN_PAUSE = 0.5
+"""By the wall clock, between two fans of a flight: each takes some 30 ms [s]."""
 REHEARSED = "fig_6b"
 """The scenario that is flown for a while at the start, so that its kernels are compiled."""
 REHEARSAL = 400
@@ -77,6 +81,7 @@ def library_catalogue(planner: Planner, name: str | None = None) -> FlightCatalo
                 seed=seed,
                 engagement=engagement,
                 planner_name=name,
+                wants_fan=not_too_often(),
             ),
             anchor=anchor,
             first=_known_situation(found),
@@ -87,6 +92,21 @@ def library_catalogue(planner: Planner, name: str | None = None) -> FlightCatalo
             pass
 
     return FlightCatalogue(scenarios=_scenarios, find=find, rehearse=rehearse)
+
+
+def not_too_often(clock: Callable[[], float] = monotonic) -> Callable[[float], bool]:
+    """Whether to make a fan of joins now: a flight at ×60 would be busy with little else."""
+    last = -inf
+
+    def wants(t: float) -> bool:
+        nonlocal last
+        del t
+        if clock() < last + FAN_PAUSE:
+            return False
+        last = clock()
+        return True
+
+    return wants
 
 
 def _known_situation(flown: Scenario) -> Situation:

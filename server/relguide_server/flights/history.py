@@ -9,6 +9,7 @@ from relguide.flying.documents import (
     Alert,
     Document,
     EngagementChanged,
+    FanChanged,
     FlightEnded,
     FlightStarted,
     ForecastChanged,
@@ -70,6 +71,7 @@ class History:
                 | PromiseChanged()
                 | Unable()
                 | ForecastChanged()
+                | FanChanged()
             ):
                 self._hold(document, document.kind, document.ident)
             case Alert():

@@ -46,6 +46,7 @@ HEADERS = {
     "Relguide-Recorded": "Whether what is acknowledged is on record already: `yes` or `no`.",
     "Retry-After": "When to try again [s].",
     "WWW-Authenticate": "`Bearer`: how to show a token.",
+    "ETag": "Names this very content: `If-None-Match` asks whether it is still the same.",
     "Content-Disposition": "A name for the file.",
 }
 """All headers of answers that the API gives a meaning, and what they say."""

@@ -12,11 +12,17 @@ from collections.abc import AsyncIterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from time import monotonic, thread_time
+from typing import Any, get_args
+
+import orjson
 
 from relguide.contract.answers import Form, Include
+from relguide.contract.wire import to_wire
+from relguide.flying.verdicts import ComparedPlanner, PlannerVerdict
 from relguide.planning.plan import Planner
 from relguide.units import Second
 from relguide_server.http.bodies import SMALL
+from relguide_server.http.errors import Refusal
 from relguide_server.http.metrics import Metrics
 from relguide_server.jobs.worker_pool import Kind, WorkerPool
 from relguide_server.planning import tasks as jobs
@@ -38,6 +44,9 @@ MORE = 4.0
 """By how much more time it is begun anew."""
 HANDING_OVER: Second = 0.02
 """How long an answer takes from a worker at most."""
+COMPARING: Second = 5.0
+"""How much longer planners may take to be compared: a tree is grown in a quarter of a second, and a
+process that has asked no network yet loads them."""
 SLICE: Second = 0.05
 """A batch is planned in slices of this length, between which other jobs are begun."""
 AT_A_TIME = 64
@@ -243,6 +252,34 @@ class PlanService:
             )
             done += len(answers)
             yield [self.count(answered) for answered in answers]
+
+    async def compare(self, body: bytes, budget: Second, *, client: str) -> bytes:
+        """What each planner would fly; one that is not compiled yet says so.
+
+        Raises:
+            Refusal: if it is no situation, or the exact planner is not compiled yet.
+        """
+        self._preparation.require_planner("exact")
+        waiting = dict[ComparedPlanner, str]()
+        names: tuple[ComparedPlanner, ...] = get_args(ComparedPlanner)
+        for name in names:
+            try:
+                self._preparation.require_planner(name)
+            except Refusal as refusal:
+                waiting[name] = refusal.detail
+        found: list[dict[str, Any]] = await self._workers.do(
+            "long_plans",
+            jobs.compare_planners,
+            body,
+            [name for name in names if name not in waiting],
+            budget,
+            patience=budget + COMPARING,
+            client=client,
+        )
+        by_name = {verdict["planner"]: verdict for verdict in found}
+        for name, why in waiting.items():
+            by_name[name] = to_wire(PlannerVerdict(planner=name, status="preparing", message=why))
+        return orjson.dumps({"planners": [by_name[name] for name in names]})
 
     async def split(self, body: bytes, *, client: str) -> list[bytes]:
         """The situations of a batch as lines; refused as a whole if one is wrong."""

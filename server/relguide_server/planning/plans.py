@@ -9,11 +9,12 @@ from fastapi import APIRouter, Query, Request
 from pydantic import BaseModel, ConfigDict, Field, RootModel, create_model
 from starlette.responses import Response, StreamingResponse
 
-from relguide.contract.answers import Form, read_include
+from relguide.contract.answers import INCLUDABLE, Form, read_include
 from relguide.contract.bodies import NamedSituationBody, SituationBody
 from relguide.contract.bulk import refused_line
 from relguide.contract.messages import PlanAnswer, model_of
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
+from relguide.flying.verdicts import PlannerVerdict
 from relguide_server.http.bodies import (
     GEOJSON,
     JSON,
@@ -31,6 +32,7 @@ from relguide_server.http.openapi import (
     name_of,
     problem_responses,
     request_body,
+    response,
     schema_of,
 )
 from relguide_server.http.query import KNOWN_PARAMETERS_ONLY, QueryRoute
@@ -48,7 +50,7 @@ BUDGET_MS, LEAST_MS, MOST_MS = 250.0, 1.0, 10_000.0
 """How long planning a situation may take if the request does not say, and the range of what it may
 say."""
 
-_INCLUDED = " *(alternatives|paths|optimality)? *"
+_INCLUDED = f" *({'|'.join(INCLUDABLE)})? *"
 INCLUDES = f"^{_INCLUDED}(,{_INCLUDED})*$"
 """What `read_include` takes, for the document."""
 
@@ -90,6 +92,14 @@ class PlanFeatures(BaseModel):
     status: Literal["planned", "no_plan"] = Field(description="Whether there is a plan.")
 
 
+class PlannerComparison(BaseModel):
+    """What planners would fly in one situation."""
+
+    planners: list[model_of(PlannerVerdict)] = Field(  # type: ignore[valid-type]
+        description="`exact`, `network`, `regular_dp` and `printed_network`, in this order."
+    )
+
+
 _ID: dict[str, Any] = {"id": (str | int, Field(default="", description="As in the request."))}
 NamedPlan: type[BaseModel] = create_model(
     "NamedPlan", __base__=model_of(PlanCard), __doc__="A plan of a batch.", **_ID
@@ -112,7 +122,9 @@ class BatchQuery(BaseModel):
         "paths to the slot, and why each is not flown. `paths`: the same as `others`, with the "
         "segments that draw them. `optimality`: how the plan meets "
         "Pontryagin's conditions, with H and the costates along it; where the path slides "
-        "along the minimum separation that takes seconds more than `max_ms`.",
+        "along the minimum separation that takes seconds more than `max_ms`. `flown`: the flight "
+        "that guidance makes of it, engaged at once: rolls, a berth beside the minimum "
+        "separation and braking included.",
         examples=["alternatives,optimality"],
         json_schema_extra={"pattern": INCLUDES},
     )
@@ -141,6 +153,18 @@ class BatchQuery(BaseModel):
             wrong = [ProblemError(path="include", message=str(error))]
             raise Refusal(422, str(error), errors=wrong) from None
         return Wish(planner=self.planner, include=included, budget=self.max_ms * 1e-3, form=form)
+
+
+class CompareQuery(BaseModel):
+    """How planners are to be compared."""
+
+    max_ms: float = Field(
+        default=BUDGET_MS,
+        ge=LEAST_MS,
+        le=MOST_MS,
+        allow_inf_nan=False,
+        description="How long the exact planner may take.",
+    )
 
 
 class PlanQuery(BatchQuery):
@@ -203,6 +227,28 @@ async def make_plan(request: Request, query: Annotated[PlanQuery, Query()]) -> R
     )
     media_type = GEOJSON if wish.form == "geojson" else JSON
     return json_answer(plan_service.count(answered), media_type=media_type)
+
+
+@router.post(
+    "/plans/compare",
+    summary="Compare planners",
+    responses={
+        **response(200, "What each would fly.", schema_of(PlannerComparison)),
+        **problem_responses(*BODY, *WORK),
+    },
+    openapi_extra=request_body(schema_of(SituationBody), EXAMPLE),
+)
+async def compare_planners(request: Request, query: Annotated[CompareQuery, Query()]) -> Response:
+    """What four planners would fly in a situation, what that costs, and where each fails.
+
+    `exact` solves all words; `network` asks networks which to solve; `regular_dp` asks the paper's
+    tree; `printed_network` flies what the paper's network gives, as the paper prints it. Each is
+    judged alike. One whose kernels are being compiled says so (`preparing`): ask again.
+    """
+    plan_service: PlanService = request.app.state.plan_service
+    body = await read_body(request, JSON, most=MAX_BODY)
+    compared = plan_service.compare(body, query.max_ms * 1e-3, client=address_of(request))
+    return json_answer(await unless_left(request, compared))
 
 
 @router.post(

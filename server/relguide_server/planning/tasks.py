@@ -1,5 +1,6 @@
 """What workers do: functions of what can be sent to another process, which give JSON text back."""
 
+import gzip
 import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -17,13 +18,16 @@ from relguide.contract.bodies import (
     NamedSituationBody,
     SituationBody,
     Unanchored,
+    path_to_wire,
     situation_from_body,
 )
 from relguide.contract.bulk import answer_line
 from relguide.contract.flight_summary import figures, summarize
 from relguide.contract.messages import FlightRequest
+from relguide.contract.recorder import recording_of
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.flight import fly
+from relguide.flying.verdicts import ComparedPlanner
 from relguide.learn.planners import make_planner
 from relguide.learn.words.area_words import area_words
 from relguide.learn.words.branch_network import BranchNetwork, load_network
@@ -47,6 +51,8 @@ LEAST: Second = 1e-3
 """Each situation is planned for so long at least, however late it is [s]."""
 LEAST_WITH_MORE: Second = 0.02
 """The same where alternatives are asked for."""
+PACKING = 6
+"""Level of gzip of a recording: it takes some hundredths of a second."""
 CUT = 0.9
 """What took this much of its time is taken to have been cut short."""
 
@@ -73,7 +79,7 @@ def load(planner: str | Planner) -> None:
     """Get ready to plan: in a process of its own that takes a second."""
     load_kernels()
     for situation in LOADING:
-        plan_situation(situation, Unanchored(), planner, ("alternatives",), None)
+        plan_situation(situation, Unanchored(), planner, ("alternatives", "flown"), None)
 
 
 def planner_of(planner: str | Planner) -> Planner:
@@ -150,6 +156,21 @@ def plan_situation(
     except ContractError as error:
         raise refusal_of(error) from None
     return _answered(given, started)
+
+
+def compare_planners(
+    body: bytes, among: Sequence[ComparedPlanner], deadline: Second
+) -> list[dict[str, Any]]:
+    """What each planner would fly in the situation of a request, as JSON objects.
+
+    Raises:
+        Refusal: if it is no situation.
+    """
+    from relguide.learn.comparison import compare  # loads networks, which few ask for
+
+    situation, anchor = read_situation(body)
+    found = compare(situation, among=among, deadline=deadline)
+    return [path_to_wire(verdict, anchor) for verdict in found]
 
 
 def split_batch(body: bytes) -> list[bytes]:
@@ -240,6 +261,19 @@ def simulate(wanted: FlightRequest, planner: str | Planner) -> bytes:
         "message": ended.message,
     }
     return orjson.dumps(about | figures(flight) | {"wall_s": perf_counter() - started})
+
+
+def record_flight(wanted: FlightRequest, planner: str | Planner) -> bytes:
+    """Fly a flight to its end, as fast as it goes, and give its recording, gzipped."""
+    _, flown, _ = scenario_of(wanted)
+    documents = fly(
+        flown,
+        planner_of(planner),
+        seed=wanted.seed,
+        sample_period=1.0,
+        planner_name=planner if isinstance(planner, str) else None,
+    )
+    return gzip.compress(recording_of(documents), PACKING)
 
 
 def _answered(given: dict[str, Any], started: float) -> PlanReply:

@@ -7,7 +7,7 @@ camera, which belongs to the viewer, then follows the flight without being moved
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import cos, sin
+from math import cos, inf, sin
 from typing import NamedTuple, assert_never
 
 import numpy as np
@@ -24,6 +24,7 @@ from relguide.flying.documents import (
     Alert,
     Document,
     EngagementChanged,
+    FanChanged,
     FlightEnded,
     FlightStarted,
     ForecastChanged,
@@ -39,25 +40,33 @@ from relguide.flying.documents import (
     SeparationLost,
     Unable,
 )
-from relguide.flying.plan_documents import PathPoint
 from relguide.planning.frames import LocalPlane
-from relguide.units import NM, Metre, Second
+from relguide.units import NM, Second
 from relguide_server.scene import paint as paint
 from relguide_server.scene import shapes as shapes
-from relguide_server.scene.aircraft import AircraftFigure, height_of, place_of
-from relguide_server.scene.camera import Cameras
+from relguide_server.scene.aircraft import (
+    LENGTH,
+    AircraftFigure,
+    enlargement,
+    height_of,
+    place_of,
+)
+from relguide_server.scene.camera import Array, Cameras, Sights
+from relguide_server.scene.closest_pair import ClosestPair, closest_ahead
 from relguide_server.scene.extrapolation import carry, onward
 from relguide_server.scene.ground import draw_ground
+from relguide_server.scene.minimum_ring import GONE, MinimumRing, leader_colour
 from relguide_server.scene.paint import lines
-from relguide_server.scene.shapes import KM, GateLook
+from relguide_server.scene.shapes import KM
+from relguide_server.scene.sky import draw_sky
+from relguide_server.scene.slot_gate import SlotGate, is_silent
 
 CELL = 5.0 * NM / KM
 """Cell of the ground grid [scene units]."""
 FLOWN_PART = 4.0
 """The path ahead is cut off behind the aircraft each so many seconds [s]: a kilometre."""
-WALL = 0.8
-"""Half the height of the cylinder of radius d_min [scene units]; separation is horizontal."""
-
+SEEN_EVERY = 30.0
+"""Between two places of the path ahead that are kept in the picture [s]."""
 
 DASHED = (2.4, 2.0)
 """A path that is proposed or accepted."""
@@ -65,12 +74,6 @@ DECLARED = (2.4, 0.8, 0.4, 0.8)
 """The leader's route as it declared it: dash-dot."""
 GUESSED = (0.4, 1.6)
 """Where it goes if it flies straight on: dots."""
-THIN = (1.6, 1.0)
-"""Distances: the minimum, the closest approach."""
-HALO = 1.0
-"""Radius of the rings that mark both aircraft when they are closest [scene units]."""
-GRAZE = 20.0
-"""Plans may graze d_min: this much below it is no loss yet [m]."""
 
 
 class _Cast(NamedTuple):
@@ -79,14 +82,6 @@ class _Cast(NamedTuple):
     link: LinkCard
     pursuer: AircraftCard
     leader: AircraftCard
-
-
-class _Closest(NamedTuple):
-    """When the two are closest, and where."""
-
-    t: Second
-    pursuer: PathPoint
-    leader: PathPoint
 
 
 class _Pair(NamedTuple):
@@ -112,19 +107,22 @@ class FlightScene:
         self._proposal: PlanProposed | None = None
         self._plan: PlanChanged | None = None
         self._drawn_from = 0.0
-        self._closest: _Closest | None = None
+        self._was_flown = True
         self._pair: _Pair | None = None
         self._cast: _Cast | None = None
         self._figures: dict[str, AircraftFigure] = {}
-        self._drawn: set[str] = set()
-        self._min_colour = paint.LEADER
-        self._gate: tuple[paint.Colour, GateLook] | None = None
+        self._route: LeaderRoute | None = None
+        self._is_routed = False
+        self._ahead: Array = np.empty((0, 3))
+        self._length = 0.0
         server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
         server.scene.set_background_image(np.full((1, 1, 3), paint.BACKGROUND, dtype=np.uint8))
         server.scene.set_up_direction("+z")
-        server.scene.configure_default_lights(cast_shadow=False)
+        draw_sky(server.scene)
         self._world = server.scene.add_frame("/world", show_axes=False)
-        self._slot = server.scene.add_frame("/world/slot", show_axes=False)
+        self._gate = SlotGate(server.scene)
+        self._minimum = MinimumRing(server.scene)
+        self._closest = ClosestPair(server.scene)
         self._cameras = Cameras(server)
 
     def draw(self, documents: Sequence[Document]) -> None:
@@ -152,7 +150,8 @@ class FlightScene:
                 self._start(document)
             case LeaderRoute():
                 if (document.expected_by, document.ident) == (link.pursuer, link.leader):
-                    self._draw_route(document)
+                    self._route = document
+                    self._draw_route(document.t)
             case PlanChanged():
                 if document.ident == link.pursuer:
                     self._plan = document
@@ -168,6 +167,7 @@ class FlightScene:
                 if document.ident == link.pursuer:
                     self._forecast = document
                     self._draw_forecast(document.t)
+                    self._drawn_from = -inf  # the next sample says when it joins
             case Sample():
                 self._sample(document.t, _pair(document, link), cast)
             case LeaderChanged() | ModeChanged() | SeparationLost() | FlightEnded():
@@ -179,7 +179,7 @@ class FlightScene:
             case EngagementChanged():
                 if document.ident == link.pursuer:
                     self._change_engagement(document)
-            case PlanRefused() | PromiseChanged() | Alert() | Unable():
+            case PlanRefused() | PromiseChanged() | FanChanged() | Alert() | Unable():
                 pass  # for the navigation display
             case _:
                 assert_never(document)
@@ -243,51 +243,43 @@ class FlightScene:
     def _draw_forecast(self, t: float) -> None:
         """What is left at flight time t [s] of the path that will be flown, and its shadow."""
         forecast, self._drawn_from = self._forecast, t
-        if forecast is None or t >= forecast.times[-1]:
+        if forecast is None or t >= forecast.times[-1] or not self._is_flown():
             for name in ("/world/forecast", "/world/forecast_shadow"):
                 self._scene.remove_by_name(name)
             return
         columns = (forecast.times, forecast.x, forecast.y)
-        points = shapes.timed_points(*columns, height=self._own_height, since=t)
+        points = shapes.timed_points(
+            *columns, height=self._own_height, since=t, until=self._drawn_until(t)
+        )
         lines(self._scene, "/world/forecast", shapes.polyline(points), paint.PLAN, 3.0)
         shadow = shapes.polyline(points * (1.0, 1.0, 0.0))
         lines(self._scene, "/world/forecast_shadow", shadow, paint.PLAN_SHADOW, 1.5)
 
-    def _draw_closest(self, t: Second, guidance: GuidanceSample) -> None:
-        """Where both are when they are closest, while that is to come and is not the join."""
-        found = self._closest_ahead(t, guidance)
-        if found == self._closest:
-            return
-        self._closest = found
-        if found is None:
-            for name in ("/world/closest", "/world/closest_min"):
-                self._scene.remove_by_name(name)
-            return
-        own = np.array((found.pursuer.x / KM, found.pursuer.y / KM, self._own_height))
-        leader = np.array((found.leader.x / KM, found.leader.y / KM, self._height))
-        marks = [shapes.ring(HALO) + own, shapes.ring(HALO) + leader, np.array([[own, leader]])]
-        lines(self._scene, "/world/closest", np.concatenate(marks), paint.LEADER, 1.5)
-        then = shapes.dashes(shapes.circle(self._radius) + leader, GUESSED)
-        lines(self._scene, "/world/closest_min", then, paint.LEADER, 1.2)
+    def _is_flown(self) -> bool:
+        """Whether guidance flies: what the aircraft would do on its own is no path of guidance."""
+        if self._pair is None:
+            return True
+        guidance = self._pair.guidance
+        return guidance.engagement == "engaged" and guidance.mode != "heading"
 
-    def _closest_ahead(self, t: Second, guidance: GuidanceSample) -> _Closest | None:
-        proposal, forecast = self._proposal, self._forecast
-        if proposal is not None and guidance.engagement in ("designated", "armed"):
-            closest = proposal.plan.separation.at
-            at, join = proposal.t + closest, proposal.t + proposal.plan.time_to_converge
-            own, leader = proposal.pursuer_at_closest, proposal.leader_at_closest
-        elif forecast is not None and guidance.time_to_go > 0.0:
-            own, leader = forecast.pursuer_at_closest, forecast.leader_at_closest
-            at, join = own.t, t + guidance.time_to_go
-        else:
-            return None
-        return _Closest(at, own, leader) if t < at < join - 1.0 else None
+    def _drawn_until(self, t: Second) -> Second:
+        """Up to when the path is drawn: the join, or once joined where the leader is now."""
+        if self._pair is None or self._cast is None:
+            return inf
+        guidance, leader = self._pair.guidance, self._pair.leader
+        if guidance.mode == "follow":
+            return t + self._cast.link.slot_distance / max(1.0, leader.ground_speed)
+        return t + guidance.time_to_go if guidance.time_to_go > 0.0 else inf
 
-    def _draw_route(self, route: LeaderRoute) -> None:
-        points = shapes.path_points(route.segments, self._wind, self._height)
-        # The style carries the state: dash-dot is a declared intent, dots are a guess.
-        pattern = DECLARED if route.intent_known else GUESSED
-        lines(self._scene, "/world/route", shapes.dashes(points, pattern), paint.LEADER, 2.0)
+    def _draw_route(self, t: Second) -> None:
+        """What is to come of the leader's route: dash-dot as declared, dots where it is a guess."""
+        if self._route is None:
+            return
+        points = shapes.path_points(self._route.segments, self._wind, self._height, since=t)
+        pattern = DECLARED if self._route.intent_known else GUESSED
+        dashed = shapes.dashes(points, pattern)
+        drawn = lines(self._scene, "/world/route", dashed, paint.LEADER, 2.0)
+        drawn.visible = self._is_routed
 
     def _sample(self, t: Second, pair: _Pair, cast: _Cast) -> None:
         guidance = pair.guidance
@@ -296,30 +288,60 @@ class FlightScene:
         self._pair = pair
         self._figures["pursuer"].mark(pair.pursuer, t)
         self._figures["leader"].mark(pair.leader, t)
-        if t - self._drawn_from >= FLOWN_PART:
+        is_flown, is_routed = self._is_flown(), _is_routed(guidance)
+        is_changed = (is_flown, is_routed) != (self._was_flown, self._is_routed)
+        self._was_flown, self._is_routed = is_flown, is_routed
+        if t - self._drawn_from >= FLOWN_PART or is_changed:
+            self._draw_route(t)
             self._draw_forecast(t)
             self._draw_plan(t)
-        self._draw_closest(t, guidance)
-        self._slot.visible = guidance.engagement != "off"
-        self._draw_gate(guidance)
-        self._draw_min_separation(guidance, cast.link.min_separation)
+        closest = closest_ahead(t, guidance, self._proposal, self._forecast)
+        self._closest.draw(closest, self._own_height, self._height, self._radius)
+        enlarged = enlargement(guidance.separation)
+        self._figures["pursuer"].show(paint.PURSUER, enlarged)
+        self._figures["leader"].show(leader_colour(guidance, cast.link.min_separation), enlarged)
+        self._figures["leader"].hide(guidance.leader_age > GONE)
+        self._minimum.draw(guidance, cast.link.min_separation)
+        self._length = LENGTH / KM * enlarged
+        self._gate.draw(guidance, self._height, self._length)
+        self._ahead = self._path_ahead(t, guidance)
         self._place(pair)
+        self._frame(pair)
+
+    def _path_ahead(self, t: Second, guidance: GuidanceSample) -> Array:
+        """Places of the committed or proposed path until it joins, from the world's origin."""
+        proposal, forecast = self._proposal, self._forecast
+        if is_silent(guidance):
+            return np.empty((0, 3))
+        if proposal is not None and guidance.engagement in ("designated", "armed"):
+            segments, since = proposal.plan.segments, t - proposal.t
+            points = shapes.path_points(segments, self._wind, self._own_height, since=since)
+            return points[:: max(1, len(points) // 40)]
+        if forecast is None or guidance.time_to_go <= 0.0:
+            return np.empty((0, 3))
+        count = 2 + int(guidance.time_to_go / SEEN_EVERY)
+        times = np.linspace(t, t + guidance.time_to_go, count)
+        x, y = (
+            np.interp(times, forecast.times, column) / KM for column in (forecast.x, forecast.y)
+        )
+        return np.column_stack((x, y, np.full(count, self._own_height)))
 
     def _place(self, pair: _Pair) -> None:
         """Put what moves where it is, and the middle of the two at the origin."""
         self._figures["pursuer"].move(pair.pursuer)
         self._figures["leader"].move(pair.leader)
-        slot = pair.guidance.slot
-        self._slot.position = (slot.x / KM, slot.y / KM, self._height)
-        self._slot.wxyz = shapes.attitude(slot.heading, 0.0)
+        self._gate.move(pair.guidance, self._height)
         own, leader = place_of(pair.pursuer), place_of(pair.leader)
-        x, y = (own[0] + leader[0]) / 2.0, (own[1] + leader[1]) / 2.0
-        self._world.position = (-x, -y, 0.0)
-        self._cameras.frame(
-            (own[0] - x, own[1] - y, own[2]),
-            (leader[0] - x, leader[1] - y, leader[2]),
-            self._radius,
-        )
+        self._world.position = (-(own[0] + leader[0]) / 2.0, -(own[1] + leader[1]) / 2.0, 0.0)
+
+    def _frame(self, pair: _Pair) -> None:
+        """Keep in the picture what matters: both, the minimum round the leader, the path ahead."""
+        own, leader = place_of(pair.pursuer), place_of(pair.leader)
+        middle = ((own[0] + leader[0]) / 2.0, (own[1] + leader[1]) / 2.0, 0.0)
+        places = np.vstack((own, leader, self._ahead)) - middle
+        radii = np.zeros(len(places))
+        radii[:2] = self._length / 2.0, self._minimum.reach
+        self._cameras.frame(Sights(places, radii))
 
     def _first(self, pair: _Pair) -> None:
         scene = self._scene
@@ -328,51 +350,10 @@ class FlightScene:
             "leader": AircraftFigure(scene, "leader", paint.LEADER, pair.leader),
         }
 
-    def _draw_gate(self, guidance: GuidanceSample) -> None:
-        gate = _gate_of(guidance)
-        if gate == self._gate:
-            return
-        self._gate = colour, look = gate
-        lines(self._scene, "/world/slot/gate", shapes.gate(3.6, 2.4, look), colour, 3.0)
-        lines(self._scene, "/world/slot/drop", shapes.drop(self._height, 0.5), colour, 0.8)
 
-    def _draw_min_separation(self, guidance: GuidanceSample, min_separation: Metre) -> None:
-        """d_min round the leader, at its altitude."""
-        colour = _min_colour(guidance, min_separation)
-        radius = min_separation / KM
-        name = "/world/leader/min_separation"
-        if radius <= 0.0 or (colour == self._min_colour and name in self._drawn):
-            return
-        self._drawn.add(name)
-        self._min_colour = colour
-        self._scene.add_cylinder(
-            name,
-            radius,
-            2.0 * WALL,
-            colour,
-            opacity=0.14,
-            radial_segments=72,
-            side="double",
-            cast_shadow=False,
-            receive_shadow=False,
-        )
-        edges = [shapes.dashes(shapes.circle(radius, z), THIN) for z in (WALL, -WALL)]
-        lines(self._scene, "/world/leader/edge", np.concatenate(edges), colour, 1.5)
-
-
-def _gate_of(guidance: GuidanceSample) -> tuple[paint.Colour, GateLook]:
-    """The slot's colour and look, as on the navigation display."""
-    unable = guidance.engagement == "engaged" and guidance.mode == "heading"
-    if unable or guidance.mode == "escape":
-        return paint.CAUTION, "crossed"
-    colour = paint.PLAN if guidance.engagement == "engaged" else paint.SLOT
-    return colour, "filled" if guidance.joined else "open"
-
-
-def _min_colour(guidance: GuidanceSample, min_separation: Metre) -> paint.Colour:
-    if guidance.separation < min_separation - GRAZE:
-        return paint.ALERT
-    return paint.CAUTION if guidance.alert in ("caution", "warning") else paint.LEADER
+def _is_routed(guidance: GuidanceSample) -> bool:
+    """Whether the leader's route is shown: it is designated, and heard of."""
+    return guidance.engagement != "off" and not is_silent(guidance)
 
 
 def _cast(started: FlightStarted) -> _Cast:

@@ -21,8 +21,13 @@ CAUTION: Colour = (235, 136, 12)
 ALERT: Colour = (255, 59, 48)
 COAST: Colour = (92, 122, 150)
 AIRPORT: Colour = (128, 138, 152)
-GRID: Colour = (38, 44, 54)
-GRID_SECTION: Colour = (66, 76, 92)
+GRID: Colour = (66, 82, 88)
+GRID_SECTION: Colour = (92, 110, 118)
+EARTH: Colour = (29, 40, 41)
+HAZE: Colour = (66, 84, 104)
+ZENITH: Colour = (7, 13, 27)
+SKYLIGHT: Colour = (150, 175, 210)
+SUNLIGHT: Colour = (255, 226, 180)
 
 
 def dim(colour: Colour, share: float) -> Colour:

@@ -4,7 +4,7 @@ Scene frame: x east, y north, z up, 1 unit = 1 km. Body frame: x forward, y left
 """
 
 from collections.abc import Sequence
-from math import cos, hypot, pi, sin
+from math import cos, hypot, inf, pi, sin
 from typing import Literal
 
 import numpy as np
@@ -27,6 +27,9 @@ ALTITUDE_SCALE = 2.0
 
 LONGEST = 4000.0
 """Longest piece a straight is drawn in [m]."""
+
+HELD = 0.22
+"""The part of an edge that is left at each of its corners, of a gate that holds its aircraft."""
 
 _FUSELAGE = (  # station along the fuselage and radius there, of an aircraft 1 long
     (0.500, 0.004),
@@ -142,7 +145,13 @@ def path_points(
 
 
 def timed_points(
-    times: Sequence[float], x: Sequence[float], y: Sequence[float], *, height: float, since: float
+    times: Sequence[float],
+    x: Sequence[float],
+    y: Sequence[float],
+    *,
+    height: float,
+    since: float,
+    until: float = inf,
 ) -> Points:
     """Points along a path that is known by places at times, from one time on [scene units].
 
@@ -151,7 +160,8 @@ def timed_points(
         x: east of each [m].
         y: north of each [m].
         height: z of all points [scene units].
-        since: what was flown before is left out [s].
+        since: what was flown before is left out [s] …
+        until: … and what will be flown after.
     """
     steps = np.diff(times)
     lengths = np.hypot(np.diff(x), np.diff(y))
@@ -159,7 +169,7 @@ def timed_points(
     counts = np.maximum(np.ceil(lengths / LONGEST).astype(int), 1)
     pieces = zip(times[:-1], steps, counts, strict=True)
     at = np.concatenate([t + dt * np.arange(n) / n for t, dt, n in pieces] + [times[-1:]])
-    at = np.concatenate(([since], at[at > since]))
+    at = np.concatenate(([since], at[(at > since) & (at < until)], [min(until, times[-1])]))
     plane = np.column_stack((np.interp(at, times, x), np.interp(at, times, y))) / KM
     return np.column_stack((plane, np.full(len(plane), height)))
 
@@ -225,28 +235,40 @@ def circle(radius: float, z: float = 0.0, sides: int = 72) -> Points:
     return np.column_stack((radius * np.cos(angle), radius * np.sin(angle), np.full(sides + 1, z)))
 
 
-GateLook = Literal["open", "filled", "crossed"]
+GateLook = Literal["open", "held", "crossed"]
 
 
-def gate(width: float, height: float, look: GateLook = "open") -> Points:
-    """An upright frame across the x axis (the way through it), as line segments."""
-    w, h = width / 2.0, height / 2.0
-    corners = np.array([(0, -w, -h), (0, w, -h), (0, w, h), (0, -w, h), (0, -w, -h)], dtype=float)
-    inside: list[list[tuple[float, float, float]]] = []
-    if look == "filled":
-        inside = [[(0.0, -w, k * h), (0.0, w, k * h)] for k in np.linspace(-1.0, 1.0, 9)[1:-1]]
-    elif look == "crossed":
-        inside = [[(0.0, -w, -h), (0.0, w, h)], [(0.0, -w, h), (0.0, w, -h)]]
-    return np.concatenate((polyline(corners), np.array(inside).reshape(-1, 2, 3)))
+def gate(length: float, width: float, height: float, look: GateLook = "open") -> Points:
+    """A box of thin lines along the x axis (the way through it), as line segments.
+
+    Held, it has its corners only, and what is in it is seen; crossed, its front has both diagonals.
+    """
+    half = np.array((length, width, height)) / 2.0
+    corners = half * [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    pairs = [(i, i | bit) for i in range(8) for bit in (1, 2, 4) if not i & bit]
+    edges = np.array([(corners[i], corners[k]) for i, k in pairs])
+    if look == "crossed":
+        return np.concatenate((edges, [(corners[4], corners[7]), (corners[5], corners[6])]))
+    if look == "held":
+        begins, ends = edges[:, 0], edges[:, 1]
+        part = HELD * (ends - begins)
+        return np.concatenate(
+            (np.stack((begins, begins + part), axis=1), np.stack((ends - part, ends), axis=1))
+        )
+    return edges
 
 
-def drop(height: float, foot: float) -> Points:
-    """A line down to the ground from the origin, and a cross where it meets it."""
-    down = (0.0, 0.0, -height)
-    return np.array(
-        [
-            [(0.0, 0.0, 0.0), down],
-            [(-foot, 0.0, -height), (foot, 0.0, -height)],
-            [(0.0, -foot, -height), (0.0, foot, -height)],
-        ]
-    )
+def drop(height: float, foot: float, levels: Sequence[float] = ()) -> Points:
+    """A line down to the ground from the origin, a cross where it meets it, and at its levels.
+
+    Args:
+        height: of the origin over the ground.
+        foot: half of the cross on the ground; those of the levels are half as large.
+        levels: heights over the ground.
+    """
+    crosses = [(0.0, foot), *((level, foot / 2.0) for level in levels)]
+    segments = [[(0.0, 0.0, 0.0), (0.0, 0.0, -height)]]
+    for level, half in crosses:
+        z = level - height
+        segments += [[(-half, 0.0, z), (half, 0.0, z)], [(0.0, -half, z), (0.0, half, z)]]
+    return np.array(segments)

@@ -31,6 +31,21 @@ def test_plan_reads_standard_input() -> None:
     assert json.loads(done.stdout)["id"] == "a"
 
 
+def test_planners_are_compared_in_json_and_in_a_table(run: Run) -> None:
+    code, out, err = run("plan", write(BODY), "--compare")
+    assert (code, err) == (0, "")
+    planners = json.loads(out)["planners"]
+    assert [each["planner"] for each in planners] == [
+        "exact", "network", "regular_dp", "printed_network",
+    ]  # fmt: skip
+    code, out, _ = run("plan", write(BODY), "--compare", "--table")
+    assert code == 0
+    assert "The paper's network: Not flown: it ends " in out
+    code, _, err = run("plan", write(BODY), "--compare", "--planner", "network")
+    assert code == 2
+    assert "leave out --batch, --prove, --include and --planner" in err
+
+
 def test_no_plan_is_an_answer_with_exit_1(run: Run) -> None:
     code, out, _ = run("plan", write(UNREACHABLE))
     assert code == 1

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from relguide.contract.recorder import RecordingError, record, replay
+from relguide.contract.recorder import RecordingError, record, recording_of, replay
 from relguide.flying.documents import Document, FlightEnded, LeaderChanged, Sample
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
@@ -208,3 +208,10 @@ def test_another_version_is_refused(recording: Path, version: int) -> None:
 def test_a_missing_file_is_an_os_error(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError):
         next(replay(tmp_path / "none.jsonl"))
+
+
+def test_a_recording_in_memory_is_that_of_a_file(tmp_path: Path) -> None:
+    flown = [SAMPLE, SAID, SAMPLE]
+    file = tmp_path / "flight.jsonl"
+    list(record(flown, file))
+    assert recording_of(flown) == file.read_bytes()

@@ -14,7 +14,7 @@ from relguide.contract.messages import Tick, from_wire
 from relguide.contract.refusal import ContractError, parse
 from relguide.contract.wire import dumps, tick, to_wire
 from relguide.flying.aircraft_documents import AircraftSample, GuidanceSample, HeadingReference
-from relguide.flying.documents import ForecastChanged, Sample, SeparationLost
+from relguide.flying.documents import ForecastChanged, PromiseChanged, Sample, SeparationLost
 from relguide.flying.plan_documents import PathPoint
 from tests.documents import documents
 from tools.display_flights import FOLDER, SITUATIONS, display_flight
@@ -125,6 +125,7 @@ def test_columns_and_times_that_may_be_missing() -> None:
         "least_separation_m": 9e3,
         "pursuer_at_closest": {"t_s": 10.0, "x_m": 1.0, "y_m": 3.0, "heading_deg": 0.0},
         "leader_at_closest": {"t_s": 10.0, "x_m": 1.0, "y_m": 9e3, "heading_deg": 0.0},
+        "aside_m": [],
     }
     lost = SeparationLost(
         t=5.0, ident="RG 06", other="LDR 01", separation=9e3, x=0.0, y=1.0, cause="", announced=()
@@ -144,6 +145,16 @@ def test_every_document_comes_back_equal(document: Any) -> None:
 def test_the_fast_encoder_writes_what_the_models_read(document: Any) -> None:
     frame = tick("f", t=1.0, rate=10.0, paused=False, ended=False, documents=[document])
     assert parse(Tick, frame).model_dump(exclude_unset=True) == json.loads(frame)
+
+
+def test_a_field_that_recordings_did_not_always_have_may_be_missing() -> None:
+    promise = PromiseChanged(t=5.0, ident="OWN", promised=60.0, was=20.0, message="Later.")
+    written = to_wire(promise)
+    assert written.pop("was_s") == 20.0
+    assert from_wire(written) == replace(promise, was=0.0)
+    del written["message"]
+    with pytest.raises(ContractError, match="message"):
+        from_wire(written)
 
 
 @pytest.mark.parametrize("heading", [-1e-20, -0.0, 2.0 * pi, 4.0 * pi])

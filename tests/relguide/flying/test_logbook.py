@@ -8,8 +8,9 @@ import pytest
 from relguide.flying.documents import (
     ForecastChanged,
 )
-from relguide.flying.guidance.forecast import NEVER, Forecast
-from relguide.flying.logbook import BENT, STRAIGHT_FOR, PairNames, forecast_document
+from relguide.flying.guidance.forecast import BENT, NEVER, STRAIGHT_FOR, Forecast
+from relguide.flying.logbook import PairNames, forecast_document
+from relguide.flying.perception import SURE, Spread
 from relguide.units import DEG
 
 NAMES = PairNames("A", "B")
@@ -71,3 +72,14 @@ def test_a_forecast_at_its_end_is_closest_there() -> None:
 def test_headings_of_a_forecast_are_those_of_a_compass() -> None:
     document = forecast_document(100.0, "A", forecast_of([7.0] * 31))
     assert document.heading[0] == pytest.approx(7.0 - 2.0 * np.pi)
+
+
+def test_a_path_is_a_line_where_all_is_exact_and_wider_with_time_where_it_is_not() -> None:
+    """At the join it may be as far aside as the slot, and as far as the wind carries it."""
+    ahead = forecast_of([0.5] * 121)._replace(join_time=220.0)
+    assert forecast_document(100.0, "A", ahead).aside == ()
+    unsure = Spread(place=50.0, velocity=1.0, wind=0.5)
+    aside = forecast_document(100.0, "A", ahead, unsure).aside
+    assert aside[0] == 0.0
+    assert list(aside) == sorted(aside)
+    assert aside[-1] == pytest.approx(SURE * hypot(60.0, hypot(50.0, 120.0)))

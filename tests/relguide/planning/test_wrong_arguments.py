@@ -10,11 +10,11 @@ from tests.calls import CALLS
 from tests.junk import junk
 
 ANSWERS = {
-    "Alert", "Alternative", "Arrival", "Candidate", "Certificate", "Document",
-    "EngagementChanged", "FlightEnded", "FlightStarted", "ForecastChanged", "Isochrones",
-    "LeaderChanged", "LeaderRoute", "ModeChanged", "NoPlan", "Optimality", "OptimalityReport",
-    "Plan", "PlanChanged", "PlanProposed", "PlanRefused", "PlanUnavailable", "Planner", "Pose",
-    "PromiseChanged", "Reason", "Sample", "Samples", "SeparationLost", "TimeRow", "Times", "Unable",
+    "Alert", "Alternative", "Arrival", "Candidate", "Certificate", "Document", "EngagementChanged",
+    "FanChanged", "FlightEnded", "FlightStarted", "ForecastChanged", "Isochrones", "LeaderChanged",
+    "LeaderRoute", "ModeChanged", "NoPlan", "Optimality", "OptimalityReport", "Plan", "PlanChanged",
+    "PlanProposed", "PlanRefused", "PlanUnavailable", "Planner", "Pose", "PromiseChanged", "Reason",
+    "Sample", "Samples", "SeparationLost", "TimeRow", "Times", "Unable",
 }  # fmt: skip
 """What calls give back, and is not asked for."""
 UNIONS = {"Command"}

@@ -46,6 +46,7 @@ TABLE = {
     ("POST", "/api/v1/areas"): "view",
     ("POST", "/api/v1/simulations"): "view",
     ("GET", "/api/v1/scenarios"): "view",
+    ("GET", "/api/v1/scenarios/{name}/flight"): "view",
     ("GET", "/api/v1/flights"): "view",
     ("POST", "/api/v1/flights"): "fly",
     ("GET", "/api/v1/flights/{flight_id}"): "view",
@@ -82,7 +83,7 @@ def test_the_table_has_every_route() -> None:
 @pytest.mark.parametrize(("route", "needed"), TABLE.items())
 def test_who_may(guarded: TestClient, route: tuple[str, str], needed: str) -> None:
     method, path = route
-    path = path.format(flight_id="none")
+    path = path.format(flight_id="none", name="none")
     for who in ("", *ROLES):
         headers = {"Authorization": f"Bearer {TOKENS[who]}"} if who else {}
         status = guarded.request(method, path, headers=headers, follow_redirects=False).status_code

@@ -6,6 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from relguide_server.scene import paint as paint
+from relguide_server.scene.aircraft import enlargement, place_of
+from relguide_server.scene.camera import ROOM, SHAPE
 from relguide_server.scene.flight_scene import FlightScene
 from relguide_server.scene.shapes import ALTITUDE_SCALE
 from viser import ViserServer
@@ -22,6 +24,7 @@ from relguide.flying.plan_documents import NoPlanCard, PathPoint
 from relguide.planning.plan import Reason
 from tests.documents import rare_documents
 from tests.server.flown import LEADER, OWN, ideal_flight
+from tests.server.scene.test_camera import pictured
 
 
 @pytest.fixture
@@ -129,6 +132,7 @@ def test_the_flown_part_of_the_path_goes(
     scene.draw([replace(sample, t=120.0, guidance=(guidance,))])
     points = np.asarray(nodes(viser_server)["/world/forecast"].points)
     assert points[0, 0, 0] == pytest.approx((ahead.x[0] + 24_000.0) / 1000.0, abs=0.01)
+    assert points[-1, 1, 0] == pytest.approx((ahead.x[0] + 240.0 * 601.0) / 1000.0, abs=0.01)
     joined = replace(guidance, time_to_go=0.0)
     scene.draw([replace(sample, t=901.0, guidance=(joined,))])
     assert "/world/forecast" not in nodes(viser_server)
@@ -177,8 +181,12 @@ def test_the_first_picture_has_both_aircraft_in_it(
 ) -> None:
     FlightScene(viser_server).draw(documents)
     sample = next(d for d in reversed(documents) if isinstance(d, Sample))
-    away = np.linalg.norm(viser_server.initial_camera.position)
-    assert away > sample.guidance[0].separation / 1000.0
+    camera = viser_server.initial_camera
+    own, leader = (np.array(place_of(each)) for each in sample.aircraft)
+    middle = (own + leader) / 2.0 * (1.0, 1.0, 0.0)
+    places = np.array([own, leader]) - middle
+    seen = pictured(np.array(camera.position), np.array(camera.look_at), places, SHAPE)
+    assert np.abs(seen).max() <= ROOM + 1e-9
 
 
 def test_it_glides_on_from_the_newest_sample(
@@ -219,16 +227,77 @@ def test_the_closest_approach_is_drawn_until_it_is_passed(
     assert "/world/closest" not in nodes(viser_server)
 
 
-def test_the_past_is_marks_and_the_slot_is_filled_when_joined(
+def test_the_past_is_marks(viser_server: ViserServer, documents: list[Document]) -> None:
+    FlightScene(viser_server).draw(documents)
+    marks = np.asarray(nodes(viser_server)["/world/leader_past"].points)
+    assert marks.shape == (3, 2, 3)  # at 0, 10 and 20 s
+    assert np.linalg.norm(marks[0, 1] - marks[0, 0]) < 0.2 * np.linalg.norm(marks[1] - marks[0])
+
+
+def test_the_gate_of_a_joined_aircraft_leaves_its_middle_free(
     viser_server: ViserServer, documents: list[Document]
 ) -> None:
     scene = FlightScene(viser_server)
     scene.draw(documents)
-    marks = np.asarray(nodes(viser_server)["/world/leader_past"].points)
-    assert marks.shape == (3, 2, 3)  # at 0, 10 and 20 s
-    assert np.linalg.norm(marks[0, 1] - marks[0, 0]) < 0.2 * np.linalg.norm(marks[1] - marks[0])
-    hollow = np.asarray(nodes(viser_server)["/world/slot/gate"].points)
     sample = next(d for d in reversed(documents) if isinstance(d, Sample))
     scene.draw([replace(sample, guidance=(replace(sample.guidance[0], joined=True),))])
-    filled = np.asarray(nodes(viser_server)["/world/slot/gate"].points)
-    assert len(filled) > len(hollow)
+    held = np.asarray(nodes(viser_server)["/world/slot/gate"].points)
+    reach = np.abs(held).max(axis=(0, 1))
+    assert (np.abs(held) > 0.5 * reach).any(axis=2).all()
+    assert (np.abs(held).min(axis=1) / reach > 0.5).sum(axis=1).min() >= 2  # edges only
+
+
+def test_aircraft_that_come_close_are_drawn_smaller_before_they_touch(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    scene.draw(documents)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    for separation in (60_000.0, 9_000.0, 3_000.0, 900.0):
+        guided = replace(sample.guidance[0], separation=separation)
+        scene.draw([replace(sample, guidance=(guided,))])
+        for name in ("pursuer", "leader"):
+            length = 1000.0 * nodes(viser_server)[f"/world/{name}/body/mesh"].scale
+            assert length <= 0.3 * separation + 1e-6
+    assert enlargement(60_000.0) == 100.0
+
+
+def test_a_lost_minimum_paints_the_leader_and_silence_takes_it_away(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    scene.draw(documents)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    known = nodes(viser_server)
+    for changed, colour in (
+        ({}, paint.LEADER),
+        ({"separation": 1000.0}, paint.ALERT),
+        ({"leader_age": 7.0}, paint.CAUTION),
+    ):
+        scene.draw([replace(sample, guidance=(replace(sample.guidance[0], **changed),))])
+        assert tuple(known["/world/leader/body/mesh"].color) == colour
+    before = known["/world/leader/min_separation"].radius
+    silent = replace(sample.guidance[0], leader_age=15.0, engagement="designated")
+    scene.draw([replace(sample, guidance=(silent,))])
+    assert not known["/world/slot"].visible
+    assert not known["/world/route"].visible
+    assert known["/world/leader/min_separation"].radius > before
+    assert known["/world/leader"].visible
+    scene.draw([replace(sample, guidance=(replace(silent, leader_age=25.0),))])
+    assert not known["/world/leader"].visible
+
+
+def test_what_is_kept_beside_the_minimum_is_a_circle_of_its_own(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    scene.draw(documents)
+    assert "/world/leader/margin" not in nodes(viser_server)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    wary = replace(sample.guidance[0], margin=900.0)
+    scene.draw([replace(sample, guidance=(wary,))])
+    margin = np.asarray(nodes(viser_server)["/world/leader/margin"].points)
+    minimum = nodes(viser_server)["/world/leader/min_separation"].radius
+    assert np.hypot(margin[..., 0], margin[..., 1]).max() == pytest.approx(minimum + 0.9)
+    scene.draw([sample])
+    assert "/world/leader/margin" not in nodes(viser_server)

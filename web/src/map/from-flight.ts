@@ -6,7 +6,7 @@ import type { IntentPiece, PathSegment } from "../wire";
 import { type Situation, settle } from "./situation";
 
 /** Null while nothing is known of where the two are. */
-export function situationOf(flight: Flight): Situation | null {
+export function situationOf(flight: Pick<Flight, "moment">): Situation | null {
   const { now, started, route } = flight.moment.value;
   if (now === null || started === null) return null;
   const { pursuer, leader } = now;

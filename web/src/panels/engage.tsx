@@ -53,32 +53,43 @@ const STEPS: Record<Guidance, Steps> = {
 };
 
 export function Engage(props: { session: Session; actions: Actions }) {
-  const { session, actions } = props;
-  const { state, readAt, hasLapsed, droppedAt } = session.shown.numbers.value;
-  const { says, next, back } = STEPS[state];
+  const { state, hasLapsed, droppedAt } = props.session.shown.numbers.value;
   const again = state === "proposed" ? againText(hasLapsed, droppedAt) : "";
-  const absent = readAt === null || !isFlying(session);
   return (
     <Panel name="engage" title="Relative guidance">
-      <p class={`hint ${again === "" ? "" : "again"}`}>{again === "" ? says : again}</p>
+      <p class={`hint ${again === "" ? "" : "again"}`}>
+        {again === "" ? STEPS[state].says : again}
+      </p>
       <div class="row">
-        <button
-          type="button"
-          class="primary grow"
-          disabled={absent || next === null}
-          onClick={() => next !== null && actions.engage(next.to)}
-        >
-          {next?.text ?? "Engage"}
-        </button>
-        <button
-          type="button"
-          class="grow"
-          disabled={absent || back === ""}
-          onClick={() => actions.engage("off")}
-        >
-          {back === "" ? "Cancel" : back}
-        </button>
+        <EngageButtons {...props} />
       </div>
     </Panel>
+  );
+}
+
+/** The next step, and the way back. */
+export function EngageButtons({ session, actions }: { session: Session; actions: Actions }) {
+  const { state, readAt } = session.shown.numbers.value;
+  const { next, back } = STEPS[state];
+  const absent = readAt === null || !isFlying(session);
+  return (
+    <>
+      <button
+        type="button"
+        class="primary grow"
+        disabled={absent || next === null}
+        onClick={() => next !== null && actions.engage(next.to)}
+      >
+        {next?.text ?? "Engage"}
+      </button>
+      <button
+        type="button"
+        class="grow"
+        disabled={absent || back === ""}
+        onClick={() => actions.engage("off")}
+      >
+        {back === "" ? "Cancel" : back}
+      </button>
+    </>
   );
 }

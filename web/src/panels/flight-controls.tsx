@@ -1,14 +1,12 @@
-/** What is flown, how fast, and what became of the last command; play and pause stand by the time. */
+/** What is flown, to begin it anew or end it; and what became of the last command. */
 
-import { Choice, Icon, Panel } from "../parts";
-import { type Actions, type Feedback, isFlying, RATES, type Session } from "../session";
-import { clockShown } from "../store/states";
+import { Icon, Panel } from "../parts";
+import { type Actions, type Feedback, isFlying, type Session } from "../session";
 
 export function FlightControls(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
-  const { scenarios, status, flight, feedback } = session;
-  const { rate } = clockShown(flight);
-  const ended = flight.clock.value.ended || !isFlying(session);
+  const { scenarios, status, feedback } = session;
+  const ended = !isFlying(session);
   const flown = status.value?.scenario || null; // empty for a situation of one's own
   const description =
     scenarios.value.find((scenario) => scenario.name === flown)?.description ?? "";
@@ -29,13 +27,6 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
           End
         </button>
       </div>
-      <Choice
-        label="Simulated seconds per second"
-        options={RATES}
-        chosen={RATES.find((offered) => offered === rate) ?? null}
-        text={(offered) => `×${offered}`}
-        choose={actions.setRate}
-      />
       <FeedbackLine feedback={feedback.value} />
     </Panel>
   );

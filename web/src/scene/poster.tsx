@@ -1,169 +1,156 @@
-/** The scene until its first picture is there: the same flight, seen by the page's own camera. */
+/** The scene drawn by the page itself: whatever instant is shown, seen by the page's own camera. */
 
 import type { ReadonlySignal } from "@preact/signals";
 import { useComputed } from "@preact/signals";
-import { samplePath } from "../geometry";
-import { ink, LINES, SEPARATION } from "../nd/style";
-import { onwards, round } from "../nd/view";
-import type { Colour } from "../store/colours";
-import { forecastIndex, pointsAfter } from "../store/forecast";
+import { ink } from "../nd/style";
+import { round } from "../nd/view";
 import type { Picture, Shown } from "../store/picture";
-import { DEG, NM } from "../units";
-import type { AircraftSample } from "../wire";
-import { type Camera, chaseCamera, type High, see } from "./camera";
-import { middleOf, type Size } from "./texts";
+import { DEG } from "../units";
+import { type Camera, drawnLength, type Sights, seeFar } from "./camera";
+import type { Size } from "./glass";
+import { type Stroke, strokesOf } from "./strokes";
 
-/** Lines of the ground [m]: so far apart, and so far from the middle. */
-const CELL = 5 * NM;
-const CELLS = 12;
-/** Nothing is drawn so far outside the picture: parts of half its sides. */
-const OUTSIDE = 4;
-/** Half of the gate's width and height [m], an aircraft's length, and half the cross at its foot [m]. */
-const GATE = { across: 1800, up: 600 } as const;
-const LENGTH = 4300;
-const FOOT = 900;
-
-interface Stroke {
-  readonly name: string;
-  readonly d: string;
-  readonly colour: Colour | "edge";
-  readonly width: number;
-  readonly dash: string;
-}
-
-/** The camera of the poster; null before the first position. */
-export function posterCamera({ now, keepOut }: Picture, { width, height }: Size): Camera | null {
-  if (now === null || width === 0 || height === 0) return null;
-  return chaseCamera(now.pursuer, now.leader, keepOut, width / height);
+/** What belongs in the picture; null before the first position. */
+export function sightsOf({ now, keepOut, join, places }: Picture): Sights | null {
+  if (now === null) return null;
+  const { altitude_m } = now.pursuer;
+  return {
+    own: now.pursuer,
+    leader: now.leader,
+    radius: keepOut + now.margin_m,
+    length: drawnLength(now.separation_m),
+    ahead: join === null ? [] : places.slice(1).map((place) => ({ ...place, altitude_m })),
+  };
 }
 
 interface Props {
   readonly shown: Shown;
   readonly camera: ReadonlySignal<Camera | null>;
   readonly size: ReadonlySignal<Size>;
+  /** A hand has moved so many pixels. */
+  turn(right: number, down: number): void;
+  /** A wheel was turned: nearer (below 1) or farther away. */
+  zoom(factor: number): void;
 }
 
-export function Poster({ shown, camera, size }: Props) {
+/** How much farther away a step of the wheel is, for each of its pixels. */
+const WHEEL = 0.0015;
+
+export function Poster({ shown, camera, size, turn, zoom }: Props) {
   const strokes = useComputed(() =>
-    camera.value === null ? [] : strokesOf(shown.picture.peek(), camera.value, size.value),
+    camera.value === null ? [] : strokesOf(shown.picture.value, camera.value, size.value),
   );
   return (
-    <svg class="poster nd" aria-hidden="true">
-      {strokes.value.map(({ name, d, colour, width, dash }) => (
-        <path
-          key={name}
-          class={`poster-${name}`}
-          d={d}
-          fill={name === "own" || name === "leader" ? ink(colour as Colour) : "none"}
-          stroke={`var(--${colour})`}
-          stroke-width={width}
-          stroke-dasharray={dash}
-        />
+    <svg
+      class="poster nd"
+      aria-hidden="true"
+      onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+      onPointerMove={(event) => {
+        if (event.currentTarget.hasPointerCapture(event.pointerId))
+          turn(event.movementX, event.movementY);
+      }}
+      onWheel={(event) => {
+        event.preventDefault();
+        zoom(Math.exp(WHEEL * event.deltaY));
+      }}
+    >
+      <Sky camera={camera} size={size} />
+      {strokes.value.map((stroke) => (
+        <path key={stroke.name} class={`poster-${stroke.name}`} d={stroke.d} {...lookOf(stroke)} />
       ))}
     </svg>
   );
 }
 
-/** All lines of the picture, bottom to top. */
-export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[] {
-  const { now, style, route, wind, t, proposed, forecast, until, keepOut, designated } = picture;
-  if (now === null) return [];
-  const middle = middleOf(now);
-  const line = (points: readonly High[]) => lineOf(points.map((each) => at(each)));
-  const at = (place: High) => {
-    const seen = see(camera, middle, place);
-    if (seen === null || Math.abs(seen.x) > OUTSIDE || Math.abs(seen.y) > OUTSIDE) return null;
-    return { x: ((1 + seen.x) / 2) * size.width, y: ((1 - seen.y) / 2) * size.height };
+function lookOf({ colour, width, dash, opacity, light }: Stroke) {
+  const drawn = colour === "ground-line" ? `var(--${colour})` : ink(colour);
+  if (light !== undefined)
+    return { fill: `color-mix(in srgb, ${drawn} ${Math.round(100 * light)}%, black)` };
+  return {
+    fill: "none",
+    stroke: drawn,
+    "stroke-width": width,
+    "stroke-dasharray": dash,
+    "stroke-opacity": opacity,
   };
-  const [own, other] = [now.pursuer.altitude_m, now.leader.altitude_m];
-  const high = <P extends { x_m: number; y_m: number }>(points: readonly P[], altitude_m: number) =>
-    points.map(({ x_m, y_m }) => ({ x_m, y_m, altitude_m }));
-  const strokes: Stroke[] = [
-    { name: "ground", d: ground(middle).map(line).join(""), colour: "edge", width: 1, dash: "" },
-  ];
-  const add = (name: string, d: string, style: Omit<Stroke, "name" | "d">) => {
-    if (d !== "") strokes.push({ name, d, ...style });
-  };
-  for (const [name, each, colour] of [
-    ["own-drop", now.pursuer, "ownship"],
-    ["leader-drop", now.leader, "leader"],
-  ] as const)
-    add(name, drop(each).map(line).join(""), { colour, width: 1, dash: "" });
-  if (route !== null)
-    add("route", line(high(samplePath(route.segments, wind, t), other)), LINES.declared);
-  if (proposed !== null) {
-    const { segments } = proposed.plan;
-    const dashed = style?.pathColour === "armed" ? LINES.armed : LINES.proposed;
-    add("path", line(high(samplePath(segments, wind, t - proposed.t_s), own)), dashed);
-  } else if (forecast !== null && style?.path === "committed") {
-    const ahead = pointsAfter(forecast, forecastIndex(forecast, t), until);
-    add("path", line(high([now.pursuer, ...ahead], own)), LINES.active);
-  }
-  if (designated) {
-    const circle = Array.from({ length: 73 }, (_, k) => onwards(now.leader, unit(5 * k), keepOut));
-    add("min", line(high(circle, other)), SEPARATION[picture.separation.state]);
-  }
-  if (style !== null && style.slot !== "none") {
-    const side = unit(now.slot.heading_deg + 90);
-    const corner = (across: number, up: number) => ({
-      ...onwards(now.slot, side, across * GATE.across),
-      altitude_m: other + up * GATE.up,
-    });
-    const frame = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1), corner(-1, -1)];
-    add("slot", line(frame), { colour: style.slotColour, width: 2.5, dash: "" });
-  }
-  add("leader", `${line(shape(now.leader))}Z`, { colour: "leader", width: 1.5, dash: "" });
-  add("own", `${line(shape(now.pursuer))}Z`, { colour: "ownship", width: 1.5, dash: "" });
-  return strokes;
 }
 
-/** Straight pieces between points that are seen. */
-function lineOf(points: readonly ({ x: number; y: number } | null)[]): string {
-  let data = "";
-  let isDown = false;
-  for (const point of points) {
-    if (point !== null) data += `${isDown ? "L" : "M"}${round(point.x)} ${round(point.y)}`;
-    isDown = point !== null;
-  }
-  return data;
+/** Where the sun stands [deg clockwise from north], and how much of the haze below it is its light: as in the
+ * server's scene/sky.py. */
+const SUN = 205;
+const GLOW = 0.7;
+/** The horizon's haze reaches so far up the sky and down the ground, and the sun's light so far up and down
+ * [parts of the focal length]. */
+const HAZE = { up: 0.7, down: 0.5 } as const;
+const LIT = 0.3;
+/** Where across the picture the sun's light is reckoned. */
+const ACROSS = [0, 0.25, 0.5, 0.75, 1] as const;
+
+/** Sky, horizon and ground behind all that is drawn. */
+function Sky({ camera, size }: Pick<Props, "camera" | "size">) {
+  const horizon = useComputed(() => horizonOf(camera.value, size.value));
+  const { y, focal, glow } = horizon.value;
+  const { width, height } = size.value;
+  const line = Math.max(0, Math.min(height, y));
+  const rising = { gradientUnits: "userSpaceOnUse", x2: "0", y1: y } as const;
+  return (
+    <>
+      <defs>
+        <linearGradient id="sky" {...rising} y2={y - HAZE.up * focal}>
+          <stop offset="0" stop-color="var(--haze)" />
+          <stop offset="0.25" stop-color="var(--sky)" />
+          <stop offset="1" stop-color="var(--zenith)" />
+        </linearGradient>
+        <linearGradient id="earth" {...rising} y2={y + HAZE.down * focal}>
+          <stop offset="0" stop-color="var(--haze)" />
+          <stop offset="0.3" stop-color="var(--far-ground)" />
+          <stop offset="1" stop-color="var(--ground)" />
+        </linearGradient>
+        <linearGradient id="sunlight" gradientUnits="userSpaceOnUse" x1="0" x2={width}>
+          {ACROSS.map((offset, k) => (
+            <stop
+              key={offset}
+              offset={offset}
+              stop-color="var(--sunlight)"
+              stop-opacity={glow[k]}
+            />
+          ))}
+        </linearGradient>
+        <linearGradient id="lit" {...rising} y1={y - LIT * focal} y2={y + LIT * focal}>
+          <stop offset="0" stop-color="white" stop-opacity="0" />
+          <stop offset="0.5" stop-color="white" />
+          <stop offset="1" stop-color="white" stop-opacity="0" />
+        </linearGradient>
+        <mask
+          id="near-horizon"
+          maskUnits="userSpaceOnUse"
+          x="0"
+          y="0"
+          width={width}
+          height={height}
+        >
+          <rect width={width} height={height} fill="url(#lit)" />
+        </mask>
+      </defs>
+      <rect width={width} height={height} fill="url(#sky)" />
+      {line < height && <rect y={line} width={width} height={height - line} fill="url(#earth)" />}
+      <rect width={width} height={height} fill="url(#sunlight)" mask="url(#near-horizon)" />
+    </>
+  );
 }
 
-/** The lines of the ground round a place, in pieces of a cell: those behind the camera are left out. */
-function ground(middle: { x_m: number; y_m: number }): High[][] {
-  const [east, north] = [middle.x_m, middle.y_m].map((each) => Math.round(each / CELL) * CELL);
-  const steps = Array.from({ length: 2 * CELLS + 1 }, (_, k) => (k - CELLS) * CELL);
-  const place = (x: number, y: number) => ({
-    x_m: (east ?? 0) + x,
-    y_m: (north ?? 0) + y,
-    altitude_m: 0,
+/** Where the horizon is seen, the focal length [px], and how much of the sun's light falls on the haze. */
+function horizonOf(camera: Camera | null, { width, height }: Size) {
+  if (camera === null) return { y: 0, focal: 1, glow: [] };
+  const { projection, view } = camera;
+  const focal = ((projection[5] ?? 1) * height) / 2;
+  // its third row points backward: where that is level, the camera looks along the horizon
+  const ahead = Math.atan2(view[10] ?? 0, view[2] ?? 0) / DEG;
+  const level = seeFar(camera, ahead, 0);
+  const glow = ACROSS.map((part) => {
+    const bearing = ahead + Math.atan(((part - 0.5) * width) / focal) / DEG;
+    return GLOW * Math.max(0, Math.cos((bearing - SUN) * DEG)) ** 3;
   });
-  return steps.flatMap((a) => [steps.map((b) => place(a, b)), steps.map((b) => place(b, a))]);
-}
-
-/** Down to the ground, and a cross there. */
-function drop({ x_m, y_m, altitude_m }: AircraftSample): High[][] {
-  const foot = (x: number, y: number) => ({ x_m: x_m + x, y_m: y_m + y, altitude_m: 0 });
-  return [
-    [{ x_m, y_m, altitude_m }, foot(0, 0)],
-    [foot(-FOOT, 0), foot(FOOT, 0)],
-    [foot(0, -FOOT), foot(0, FOOT)],
-  ];
-}
-
-/** An arrowhead as long as the aircraft is drawn. */
-function shape(aircraft: AircraftSample): High[] {
-  const [ahead, side] = [unit(aircraft.heading_deg), unit(aircraft.heading_deg + 90)];
-  return [
-    [0.5, 0],
-    [-0.5, 0.45],
-    [-0.25, 0],
-    [-0.5, -0.45],
-  ].map(([along = 0, across = 0]) => ({
-    ...onwards(onwards(aircraft, ahead, along * LENGTH), side, across * LENGTH),
-    altitude_m: aircraft.altitude_m,
-  }));
-}
-
-function unit(heading: number): { x: number; y: number } {
-  return { x: Math.sin(heading * DEG), y: Math.cos(heading * DEG) };
+  const y = level === null ? -height : ((1 - level.y) / 2) * height;
+  return { y: round(Math.max(-9 * height, Math.min(9 * height, y))), focal: round(focal), glow };
 }

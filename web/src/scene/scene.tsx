@@ -1,51 +1,68 @@
-/** The 3D scene beside the ND: the same flight, seen from anywhere. */
+/**
+ * The 3D scene beside the ND: the same flight, seen from anywhere. Live it is the server's own picture;
+ * of any other instant, of a recording, and until the server's is there, the page draws it.
+ */
 
-import { type Signal, useComputed, useSignal } from "@preact/signals";
+import {
+  type ReadonlySignal,
+  type Signal,
+  useComputed,
+  useSignal,
+  useSignalEffect,
+} from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { Icon } from "../parts";
-import type { Session } from "../session";
-import type { Camera } from "./camera";
-import { Poster, posterCamera } from "./poster";
-import type { Size } from "./texts";
+import type { Actions, Session } from "../session";
+import type { Shown } from "../store/picture";
+import { SceneBar } from "./bar";
+import {
+  type Camera,
+  cameraAt,
+  type Stand,
+  standFor,
+  standOf,
+  turned,
+  VIEWS,
+  type ViewName,
+  zoomed,
+} from "./camera";
+import type { Size } from "./glass";
+import { Poster, sightsOf } from "./poster";
+import { dress, isDark, listen, press } from "./server-page";
 import { Writing } from "./writing";
 
-/** Where the camera can be put, by the names of the scene's own views. */
-const VIEWS = ["Chase", "Top", "Side", "Free"] as const;
-type ViewName = (typeof VIEWS)[number];
-/** What each of them shows. */
+/** What each view shows. */
 const SHOWS: Record<ViewName, string> = {
   Chase: "Behind own ship, towards the leader",
   Top: "From above, north up",
-  Side: "With both aircraft side by side",
+  Side: "From the right, down to the ground",
   Free: "Where you put it: drag to turn, wheel to zoom",
 };
-/** What the scene's page shows besides the picture: it has a place in ours, or none. */
-const CHROME = "[class*=Notification], [class*=Paper-root] { display: none !important }";
-/** How often it is looked whether the scene is drawn [ms]. */
+/** How often it is looked whether the server's picture is drawn [ms]. */
 const LOOK = 200;
-/** Its ground is dark: brighter than this is the vendor's empty page (0 to 255). */
-const DARK = 60;
-/** Where the picture is looked at, as parts of its sides. */
-const PARTS = [0.1, 0.5, 0.9] as const;
 
-export function Scene(props: { session: Session }) {
-  const { shown, status, sceneMaximised } = props.session;
+interface Props {
+  readonly session: Session;
+  readonly actions: Actions;
+}
+
+export function Scene({ session, actions }: Props) {
+  const { shown, status, sceneMaximised } = session;
   // Loaded only once the flight flies: the scene's page has 0.8 MB, and its picture costs GPU time.
   const flying = useComputed(() => shown.picture.value.pose !== null);
   const url = status.value?.scene_url;
   const maximised = sceneMaximised.value;
   const frame = useRef<HTMLIFrameElement>(null);
   const isDrawn = useSignal(false);
+  // The server's picture knows no other instant than the newest.
+  const isLive = useComputed(() => session.flight.source.value.kind === "live");
   const view = useSignal<ViewName>("Chase");
   const camera = useSignal<Camera | null>(null);
   const size = useSignal<Size>({ width: 0, height: 0 });
-  // The poster is drawn as often as numbers are read: it stands for seconds at most.
-  const stand = useComputed(() => {
-    void shown.numbers.value.readAt;
-    return isDrawn.value ? null : posterCamera(shown.picture.peek(), size.value);
-  });
-  const seen = useComputed(() => (isDrawn.value ? camera.value : stand.value));
   const isOpen = flying.value && url !== undefined;
+  const isPosted = useComputed(() => !isDrawn.value || !isLive.value);
+  const own = useOwnCamera({ shown, view, camera, size, isPosted });
+  const seen = useComputed(() => (isPosted.value ? own.camera.value : camera.value));
   useEffect(() => {
     isDrawn.value = false;
     camera.value = null;
@@ -60,6 +77,7 @@ export function Scene(props: { session: Session }) {
         if (!isDark(page)) return;
         isDrawn.value = true;
         clearInterval(timer);
+        press(page, view.peek());
       });
     }, LOOK);
     return () => clearInterval(timer);
@@ -76,8 +94,9 @@ export function Scene(props: { session: Session }) {
               key={each}
               title={SHOWS[each]}
               aria-pressed={view.value === each}
-              disabled={!isDrawn.value}
+              disabled={!flying.value}
               onClick={() => {
+                if (each === "Free") own.hold();
                 view.value = each;
                 press(frame.current?.contentDocument ?? null, each);
               }}
@@ -98,16 +117,20 @@ export function Scene(props: { session: Session }) {
           {maximised ? "Restore" : "Maximise"}
         </button>
       </header>
+      {maximised && <SceneBar session={session} actions={actions} />}
       <div class="scene-glass">
         {isOpen && (
           <iframe
             key={url}
             ref={frame}
+            class={isLive.value ? "" : "behind"}
             src={url}
             title="3D scene of the flight: drag to turn, wheel to zoom"
           />
         )}
-        {!isDrawn.value && <Poster shown={shown} camera={stand} size={size} />}
+        {flying.value && isPosted.value && (
+          <Poster shown={shown} camera={own.camera} size={size} turn={own.turn} zoom={own.zoom} />
+        )}
         {!flying.value && <p class="scene-waits">The scene opens with the first position.</p>}
         {flying.value && <Writing shown={shown} camera={seen} size={size} />}
       </div>
@@ -115,66 +138,53 @@ export function Scene(props: { session: Session }) {
   );
 }
 
-/** Takes the chrome off the scene's page, which is our own server's. Whether it has a canvas. */
-function dress(page: Document | null): page is Document {
-  if (page === null || canvasOf(page) === null) return false;
-  if (page.querySelector("style[data-dress]") !== null) return true;
-  const style = page.createElement("style");
-  style.dataset.dress = "";
-  style.textContent = CHROME;
-  page.body.append(style);
-  return true;
+interface OwnCamera {
+  readonly camera: ReadonlySignal<Camera | null>;
+  /** Leaves it where it is, to be turned by hand. */
+  hold(): void;
+  turn(right: number, down: number): void;
+  zoom(factor: number): void;
 }
 
-/** Takes the camera of each picture, and notes when a hand moves it. */
-function listen(page: Document, camera: Signal<Camera | null>, view: Signal<ViewName>): void {
-  const window: (Window & { onpicture?: unknown }) | null = page.defaultView;
-  if (window === null || window.onpicture !== undefined) return;
-  window.onpicture = (projection: readonly number[], seen: readonly number[]) => {
-    camera.value = { projection: [...projection], view: [...seen] };
-  };
-  const free = () => {
-    if (view.value === "Free") return;
-    view.value = "Free";
-    press(page, "Free");
-  };
-  page.addEventListener("wheel", free, { passive: true });
-  page.addEventListener("pointermove", ({ buttons }) => {
-    if (buttons !== 0) free();
+interface Looking {
+  readonly shown: Shown;
+  readonly view: Signal<ViewName>;
+  /** The server's. */
+  readonly camera: ReadonlySignal<Camera | null>;
+  readonly size: ReadonlySignal<Size>;
+  readonly isPosted: ReadonlySignal<boolean>;
+}
+
+/** The camera of the picture that the page draws: where the view has it, or where a hand has put it. */
+function useOwnCamera({ shown, view, camera, size, isPosted }: Looking): OwnCamera {
+  const held = useSignal<Stand | null>(null);
+  const aspect = useComputed(() => size.value.width / Math.max(1, size.value.height));
+  const stand = useComputed(() => {
+    if (!isPosted.value || size.value.height === 0) return null;
+    const chosen = view.value;
+    if (chosen === "Free" && held.value !== null) return held.value;
+    const sights = sightsOf(shown.picture.value);
+    if (sights === null) return null;
+    return standFor(chosen === "Free" ? "Chase" : chosen, sights, aspect.value);
   });
-}
-
-function canvasOf(page: Document): HTMLCanvasElement | null {
-  return [...page.querySelectorAll("canvas")].find(({ width }) => width > 1) ?? null;
-}
-
-/** Whether the scene's own ground is drawn, and no longer the empty page. */
-function isDark(page: Document): boolean {
-  const canvas = canvasOf(page);
-  const glass = document.createElement("canvas");
-  [glass.width, glass.height] = [PARTS.length, PARTS.length];
-  const pen = glass.getContext("2d", { willReadFrequently: true });
-  if (canvas === null || pen === null || isFading(canvas)) return false;
-  for (const [i, x] of PARTS.entries())
-    for (const [j, y] of PARTS.entries())
-      pen.drawImage(canvas, x * canvas.width, y * canvas.height, 1, 1, i, j, 1, 1);
-  const { data } = pen.getImageData(0, 0, PARTS.length, PARTS.length);
-  let dark = 0;
-  for (let at = 0; at < data.length; at += 4) {
-    const [red = 0, green = 0, blue = 0, there = 0] = data.slice(at, at + 4);
-    if (there > 200 && Math.max(red, green, blue) < DARK) dark += 1;
-  }
-  return dark > 5; // of nine: lines and labels may be bright
-}
-
-/** The vendor's page fades its canvas in: until then the poster is what can be seen. */
-function isFading(canvas: HTMLCanvasElement): boolean {
-  const style = canvas.ownerDocument.defaultView?.getComputedStyle(canvas);
-  return Number(style?.opacity ?? 1) < 0.9;
-}
-
-/** Presses the scene's own button of a view. */
-function press(page: Document | null, view: ViewName): void {
-  const buttons = [...(page?.querySelectorAll("button") ?? [])];
-  buttons.find((button) => button.textContent === view)?.click();
+  // From the server's picture a camera that a hand has moved is taken over as it stands.
+  useSignalEffect(() => {
+    if (!isPosted.value || view.peek() !== "Free") return;
+    const [from, pose] = [camera.peek(), shown.picture.peek().pose];
+    if (from !== null && pose !== null) held.value = standOf(from, pose.altitude_m);
+  });
+  const move = (moved: (stand: Stand) => Stand) => {
+    const from = stand.peek();
+    if (from === null) return;
+    held.value = moved(from);
+    view.value = "Free";
+  };
+  return {
+    camera: useComputed(() => (stand.value === null ? null : cameraAt(stand.value, aspect.value))),
+    hold: () => {
+      held.value = stand.peek() ?? held.peek();
+    },
+    turn: (right, down) => move((from) => turned(from, right, down)),
+    zoom: (factor) => move((from) => zoomed(from, factor)),
+  };
 }

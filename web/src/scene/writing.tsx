@@ -1,16 +1,25 @@
 /** The texts on the scene's picture, moved with each picture and kept apart five times a second. */
 
-import { computed, effect, type ReadonlySignal, type Signal, useComputed } from "@preact/signals";
+import {
+  computed,
+  effect,
+  type ReadonlySignal,
+  type Signal,
+  useComputed,
+  useSignal,
+} from "@preact/signals";
 import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { LabelSheet } from "../nd/labelled";
 import { type Label, type Placement, placeLabels } from "../nd/labels";
+import { ink } from "../nd/style";
+import { NOTICE_COLOUR } from "../store/notices";
 import type { Shown } from "../store/picture";
-import type { Camera } from "./camera";
-import { aroundTexts, northOf, type Size, TEXTS, textsOf } from "./texts";
+import { ALTITUDE_SCALE, type Camera, enlargement } from "./camera";
+import type { Size } from "./glass";
+import { aroundTexts, northOf, TEXTS, textsOf } from "./texts";
 
 const NO_LABELS: ReadonlyMap<string, Label> = new Map();
 const ARROW = "M0 12V-12M-5 -5L0 -13L5 -5";
-const CAPTION = "grid 5 NM · heights ×2 · aircraft ×80: not to scale";
 
 interface Props {
   readonly shown: Shown;
@@ -35,17 +44,20 @@ export function Writing({ shown, camera, size }: Props) {
     const texts = textsOf(shown, camera.value, size.value);
     return new Map(texts.map((each) => [each.id, each] as const));
   });
+  const settled = useSettled(camera);
   const placements = useMemo(() => {
     let before: ReadonlyMap<string, Placement> = new Map();
     return computed(() => {
       void shown.numbers.value.readAt;
+      void settled.value;
       const seen = camera.peek();
       if (seen === null) return before;
       const around = aroundTexts(shown, seen, size.value);
       before = placeLabels([...labels.peek().values()], around, before);
       return before;
     });
-  }, [shown, camera, labels, size]);
+  }, [shown, camera, labels, size, settled]);
+  const enlarged = useComputed(() => enlargement(shown.picture.value.now?.separation_m ?? 0));
   const hasNorth = useComputed(
     () => camera.value !== null && northOf(shown, camera.value, size.value) !== null,
   );
@@ -54,13 +66,54 @@ export function Writing({ shown, camera, size }: Props) {
       {TEXTS.map((id) => (
         <LabelSheet key={id} id={id} labels={labels} placements={placements} />
       ))}
+      <Warning shown={shown} />
       {hasNorth.value && (
         <>
           <North shown={shown} camera={camera} size={size} />
-          <p class="scene-caption">{CAPTION}</p>
+          <p class="scene-caption">
+            {`grid 5 NM · heights ×${ALTITUDE_SCALE} · aircraft ×${enlarged.value}`}
+          </p>
         </>
       )}
     </div>
+  );
+}
+
+/** A camera stands still for so long before the texts are placed anew, though no number has changed [ms]. */
+const SETTLED = 120;
+
+/** Counts how often a camera has come to rest. */
+function useSettled(camera: ReadonlySignal<Camera | null>): ReadonlySignal<number> {
+  const count = useSignal(0);
+  useEffect(() => {
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    const stop = effect(() => {
+      void camera.value;
+      clearTimeout(timer);
+      timer = setTimeout(() => {
+        count.value += 1;
+      }, SETTLED);
+    });
+    return () => {
+      clearTimeout(timer);
+      stop();
+    };
+  }, [camera, count]);
+  return count;
+}
+
+/** The most urgent warning or caution, in the words of the navigation display. */
+function Warning({ shown }: { shown: Shown }) {
+  const notice = useComputed(() => {
+    const [first] = shown.picture.value.notices;
+    return first?.level === "warning" || first?.level === "caution" ? first : null;
+  });
+  if (notice.value === null) return null;
+  const { text, level } = notice.value;
+  return (
+    <p class="scene-warning" style={{ color: ink(NOTICE_COLOUR[level]) }}>
+      {text}
+    </p>
   );
 }
 

@@ -79,6 +79,7 @@ export function isAbout(document: Document, pair: PairCard): boolean {
     case "unable":
     case "separation_lost":
     case "forecast_changed":
+    case "fan_changed":
       return document.ident === pair.pursuer.ident;
   }
 }

@@ -3,16 +3,16 @@
  * and the time of the view. The display, the panels and the scene's poster read it and compute nothing.
  */
 
-import { computed, type ReadonlySignal } from "@preact/signals";
+import { computed, type ReadonlySignal, signal } from "@preact/signals";
 import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometry";
 import { KT, NM } from "../units";
 import type {
   AircraftSample,
+  FanChanged,
   ForecastChanged,
   LeaderRoute,
   PathPoint,
   PlanChanged,
-  PlanProposed,
 } from "../wire";
 import { type Announcements, announcementsOf } from "./announcements";
 import {
@@ -31,6 +31,7 @@ import {
 } from "./committed";
 import { describe } from "./description";
 import { STALE_AGE } from "./flight";
+import type { Ghost } from "./ghost";
 import { type Moved, moveAircraft, movedBy, STILL } from "./motion";
 import { type Notice, noticesOf } from "./notices";
 import { type Numbers, numbersOf, ROLL_IN } from "./numbers";
@@ -49,7 +50,7 @@ import {
   separation,
 } from "./states";
 import type { TrailPoint } from "./trail";
-import type { Flight, Moment } from "./types";
+import type { Flight, Moment, Proposal } from "./types";
 
 export type { Moved } from "./motion";
 
@@ -115,15 +116,19 @@ export interface Picture {
   readonly trend: readonly TrendPoint[];
   readonly route: LeaderRoute | null;
   readonly wind: Vector;
+  /** Where the leader has been, while it is designated; and own ship. */
   readonly trail: readonly TrailPoint[];
+  readonly ownTrail: readonly TrailPoint[];
   /** The last plan, flown or not. */
   readonly plan: PlanChanged | null;
   /** The plan whose points are shown: flown, or proposed. */
   readonly flown: Planned | null;
   /** The path that is proposed, accepted or not. */
-  readonly proposed: PlanProposed | null;
+  readonly proposed: Proposal | null;
   readonly superseded: PlanChanged | null;
   readonly forecast: ForecastChanged | null;
+  /** Joins after turns that the leader has not announced, while a path is proposed or flown. */
+  readonly fan: FanChanged | null;
   /** Up to when the path is drawn [s, flight time]. */
   readonly until: number;
   readonly turns: readonly TurnAhead[];
@@ -160,12 +165,19 @@ export interface Shown {
   readonly words: ReadonlySignal<string>;
   /** What is spoken of it. */
   readonly spoken: ReadonlySignal<Announcements>;
+  /** Another flight that is seen beside this one; null if there is none. */
+  readonly ghost: ReadonlySignal<Ghost | null>;
 }
+
+const NO_GHOST: ReadonlySignal<Ghost | null> = signal(null);
 
 /** The plan before is shown this long [s]. */
 const SUPERSEDED_SHOWN = 3;
 
-export function createShown({ moment, read, since, isSent }: Flight): Shown {
+export function createShown(
+  { moment, read, since, isSent }: Flight,
+  ghost: Shown["ghost"] = NO_GHOST,
+): Shown {
   const numbers = computed(() => numbersOf(read.value));
   return {
     picture: computed(() => pictureOf({ ...moment.value, isSent: isSent.value })),
@@ -176,6 +188,7 @@ export function createShown({ moment, read, since, isSent }: Flight): Shown {
     numbers,
     words: computed(() => describe(read.value, numbers.value)),
     spoken: computed(() => announcementsOf(read.value)),
+    ghost,
   };
 }
 
@@ -214,10 +227,12 @@ export function pictureOf(flight: Moment): Picture {
     route: now === null || !designated || !known.guidance ? null : flight.route,
     wind: windOver(flight),
     trail: now === null || !designated ? NO_TRAIL : flight.trail.leader,
+    ownTrail: now === null ? NO_TRAIL : flight.trail.pursuer,
     plan: guided === null ? null : flight.plan,
     flown,
     superseded: guided === null ? null : supersededPlan(flight),
     forecast: flight.forecast,
+    fan: isAhead && known.guidance ? flight.fan : null,
     until: shownUntil(flight, guided),
     turns: flown === null ? [] : turnsAhead(flight, flown),
     minutes: flown === null ? [] : minutesAhead(flight, flown),

@@ -16,6 +16,7 @@ export const NOTHING_KNOWN: Known = {
   promise: null,
   proposal: null,
   forecast: null,
+  fan: null,
   superseded: null,
   unavailable: null,
   alerts: [],
@@ -62,6 +63,8 @@ function take(known: Known, document: Document, pair: PairCard): Known {
       return { ...known, lost: document };
     case "forecast_changed":
       return { ...known, forecast: document };
+    case "fan_changed":
+      return { ...known, fan: document.joins.length > 0 ? document : null };
     case "flight_ended":
       return { ...known, result: pairResult(document, pair) };
     case "flight_started":
@@ -105,6 +108,7 @@ export function messageOf(document: Document): Message | null {
     case "leader_route":
     case "plan_proposed":
     case "forecast_changed":
+    case "fan_changed":
     case "sample":
       return null;
   }
@@ -119,7 +123,8 @@ function takePlan(known: Known, changed: PlanChanged): Known {
     plan: changed,
     unavailable: null,
     unable: null,
-    promise: null,
+    // what is not announced says nothing, so that what was said last still holds
+    promise: changed.announced ? null : known.promise,
   };
 }
 

@@ -4,10 +4,12 @@ import type { Signal } from "@preact/signals";
 import type {
   Alert,
   EngagementChanged,
+  FanChanged,
   ForecastChanged,
   LeaderRoute,
   LinkResult,
   ModeChanged,
+  PlanCard,
   PlanChanged,
   PlanProposed,
   PlanUnavailable,
@@ -43,6 +45,12 @@ export interface Message {
   readonly text: string;
 }
 
+/** A path that could be flown; on the map also its flight, and the ideal plan that it takes the place of. */
+export interface Proposal extends PlanProposed {
+  readonly flown?: ForecastChanged;
+  readonly ideal?: PlanCard;
+}
+
 /** What all documents but the samples say, up to some instant. */
 export interface Known {
   readonly started: PairCard | null;
@@ -52,9 +60,11 @@ export interface Known {
   /** The last time of the join that was said anew, until the next plan. */
   readonly promise: PromiseChanged | null;
   /** The path that could be flown; null when guidance is engaged, or there is none. */
-  readonly proposal: PlanProposed | null;
+  readonly proposal: Proposal | null;
   /** The path that own ship will really fly, whatever its mode. */
   readonly forecast: ForecastChanged | null;
+  /** Where it would join if the leader began a turn now; null while its intent is known. */
+  readonly fan: FanChanged | null;
   /** The plan before, and the flight time [s] at which another took its place. */
   readonly superseded: { readonly plan: PlanChanged; readonly at: number } | null;
   /** Set while the last answer was "no plan". */

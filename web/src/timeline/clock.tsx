@@ -1,7 +1,7 @@
 /** The controls of time: play, step, rate, typed time, loop, and how far behind the newest the page is. */
 
-import type { ReadonlySignal } from "@preact/signals";
-import { Icon } from "../parts";
+import { type ReadonlySignal, useSignal } from "@preact/signals";
+import { Choice, Icon } from "../parts";
 import { type Actions, RATES, REPLAY_RATES, type Session } from "../session";
 import { speedOf } from "../store/flight";
 import { formatClock, readClockText } from "../units";
@@ -15,8 +15,7 @@ interface Props {
 
 export function Clock({ session, actions, outline }: Props) {
   const { flight, recording } = session;
-  const { source, clock } = flight;
-  const isReplay = source.value.kind === "replay";
+  const { clock } = flight;
   const stands = speedOf(flight) === 0;
   const none = outline.value === null;
   return (
@@ -52,19 +51,7 @@ export function Clock({ session, actions, outline }: Props) {
         <Icon name="after" />
       </button>
       <TimeField session={session} actions={actions} />
-      <label class="timeline-rate">
-        <span class="visually-hidden">Seconds of flight a second</span>
-        <select
-          value={String(isReplay ? session.replayRate.value : clock.value.rate)}
-          onChange={(event) => actions.setRate(Number(event.currentTarget.value))}
-        >
-          {(isReplay ? REPLAY_RATES : RATES).map((rate) => (
-            <option key={rate} value={String(rate)}>
-              {rateText(rate)}
-            </option>
-          ))}
-        </select>
-      </label>
+      <Rate session={session} actions={actions} />
       <Loop session={session} actions={actions} />
       {recording.value !== null ? (
         <span class="timeline-edge recorded">RECORDED</span>
@@ -74,6 +61,39 @@ export function Clock({ session, actions, outline }: Props) {
         <Edge session={session} actions={actions} />
       )}
     </div>
+  );
+}
+
+/** How fast it goes: a row of buttons where there is room, else a list. */
+function Rate({ session, actions }: { session: Session; actions: Actions }) {
+  const { source, clock } = session.flight;
+  const isOwn = source.value.kind === "replay";
+  const [rates, chosen] = isOwn
+    ? [REPLAY_RATES, session.replayRate.value]
+    : [RATES, clock.value.rate];
+  return (
+    <>
+      <Choice
+        label="Seconds of flight a second"
+        kind="timeline-rates"
+        options={rates}
+        chosen={chosen}
+        text={rateText}
+        choose={actions.setRate}
+      />
+      <select
+        class="timeline-rate"
+        aria-label="Seconds of flight a second"
+        value={String(chosen)}
+        onChange={(event) => actions.setRate(Number(event.currentTarget.value))}
+      >
+        {rates.map((rate) => (
+          <option key={rate} value={String(rate)}>
+            {rateText(rate)}
+          </option>
+        ))}
+      </select>
+    </>
   );
 }
 
@@ -104,6 +124,7 @@ function TimeField({ session, actions }: { session: Session; actions: Actions })
   const { read, span } = session.flight;
   const [first, last] = [span.value?.first ?? 0, span.value?.last ?? 0];
   const refusal = session.timeRefusal;
+  const typed = useSignal<string | null>(null);
   const take = (field: HTMLInputElement) => {
     const t = readClockText(field.value);
     if (t === null) refusal.value = `“${field.value}” is no time: type 13:39, or 819 for seconds.`;
@@ -112,6 +133,7 @@ function TimeField({ session, actions }: { session: Session; actions: Actions })
     else {
       refusal.value = "";
       actions.seek(t);
+      typed.value = formatClock(t);
     }
   };
   return (
@@ -120,14 +142,20 @@ function TimeField({ session, actions }: { session: Session; actions: Actions })
       <input
         type="text"
         inputMode="numeric"
-        value={formatClock(read.value.t)}
+        value={typed.value ?? formatClock(read.value.t)}
         size={7}
         aria-invalid={refusal.value !== ""}
         aria-describedby="time-refusal"
-        onFocus={(event) => event.currentTarget.select()}
+        onFocus={(event) => {
+          typed.value = event.currentTarget.value; // the time goes on, what is typed stands
+          event.currentTarget.select();
+        }}
+        onInput={(event) => {
+          typed.value = event.currentTarget.value;
+        }}
         onChange={(event) => take(event.currentTarget)}
-        onBlur={(event) => {
-          event.currentTarget.value = formatClock(read.value.t);
+        onBlur={() => {
+          typed.value = null;
         }}
       />
       <span class="of">of {formatClock(last)}</span>

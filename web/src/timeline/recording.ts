@@ -29,6 +29,7 @@ const PARTS: Record<Document["kind"], readonly string[]> = {
   unable: ["ident", "reason", "message"],
   separation_lost: ["ident", "cause"],
   forecast_changed: ["ident", "times_s", "x_m", "y_m", "heading_deg", "pursuer_at_closest"],
+  fan_changed: ["ident", "joins", "most_saved_s", "mean_saved_s"],
   sample: ["aircraft", "guidance"],
   flight_ended: ["reason", "message", "results"],
 };

@@ -1,6 +1,7 @@
 """In capture a late join is news, and so is a spacing that is not kept for a minute."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from relguide.flying.documents import Alert, ModeChanged, PlanChanged, PromiseChanged
 from relguide.flying.guidance.announcements import Alerted, NewPromise
 from relguide.flying.guidance.joining import judge_spacing, promise_anew
-from relguide.flying.guidance.memory import Announced, Memory, begin
+from relguide.flying.guidance.memory import LONG_AGO, Announced, Memory, Promise, begin
 from relguide.flying.guidance.monitor import Outlook
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.modes import Mode
@@ -30,7 +31,8 @@ def promised(joins: float, *, mode: Mode = "capture") -> Memory:
     """In capture for a while, a join promised for then."""
     path = BELIEF.leader_after(0.0).trajectory
     said = Announced(t=0.0, joins=joins, path=path, quiet_until=0.0)
-    return begin(BELIEF)._replace(mode=mode, announced=said, pending=None)
+    told = Promise(t=LONG_AGO, joins=joins, settled=True)
+    return begin(BELIEF)._replace(mode=mode, announced=said, promise=told, pending=None)
 
 
 def promises(memory: Memory, *, joins: float) -> list[tuple[float, NewPromise]]:
@@ -46,12 +48,22 @@ def promises(memory: Memory, *, joins: float) -> list[tuple[float, NewPromise]]:
 
 
 @pytest.mark.parametrize(
-    ("joins", "than"), [(300.0, "1 min 40 s later"), (150.0, "0 min 50 s sooner")]
+    ("joins", "message"),
+    [
+        (300.0, "Joins in 5 min 00 s, was 3 min 20 s."),
+        (150.0, "Joins in 2 min 30 s, was 3 min 20 s."),
+    ],
 )
-def test_another_time_is_promised_once(joins: float, than: str) -> None:
+def test_another_time_is_promised_once(joins: float, message: str) -> None:
     ((t, event),) = promises(promised(200.0), joins=joins)
-    assert (t, event.joins) == (0.0, joins)
-    assert event.message.endswith(f"{than} than was said.")
+    assert (t, event.joins, event.was) == (0.0, joins, 200.0)
+    assert event.message == message
+
+
+def test_a_join_that_should_have_been_is_said_so() -> None:
+    late = promised(-20.0)
+    ((_, event),) = promises(late, joins=60.0)
+    assert event.message == "Joins in 1 min 00 s, and should have joined by now."
 
 
 def test_ten_seconds_are_no_news_nor_5_percent_of_the_time_to_go() -> None:
@@ -64,11 +76,29 @@ def test_nothing_is_promised_where_nothing_is_joined(mode: Mode) -> None:
     assert promises(promised(200.0, mode=mode), joins=300.0) == []
 
 
-def test_while_the_leader_changes_nothing_is_promised() -> None:
-    """It would be promised anew each second: it waits until the leader has settled."""
-    settling = promised(200.0)._replace(changed=20.0)
-    ((t, _),) = promises(settling, joins=300.0)
-    assert t >= 20.0 + DEFAULT.settled_for
+def test_while_the_leader_turns_it_is_said_at_once_and_then_only_how_much_it_moves() -> None:
+    """Within 5 s of the change, every ten seconds at most, and what was last said is true."""
+    memory, joins, said = promised(200.0), 200.0, list[tuple[float, float]]()
+    for t in range(120):
+        turns = t < 40
+        joins += 4.0 if turns else 0.0
+        memory = memory._replace(forecast=AHEAD._replace(join_time=joins))
+        memory = memory._replace(changed=float(t) if turns else memory.changed)
+        memory, events = promise_anew(memory, replace(BELIEF, t=float(t)), ASSIGNMENT)
+        said += [(float(t), event.joins) for event in events if isinstance(event, NewPromise)]
+    assert said[0][0] <= 5.0
+    assert all(
+        later - before >= DEFAULT.promise_every for (before, _), (later, _) in pairwise(said)
+    )
+    assert 2 <= len(said) <= 4
+    assert said[-1][1] == pytest.approx(joins, abs=DEFAULT.shown_time)
+
+
+def test_a_great_change_interrupts_the_pause_after_a_small_one() -> None:
+    """Fig. 6a: 11 s later at 13:41, and 173 s later at 13:44."""
+    memory = promised(200.0)._replace(changed=0.0)
+    memory = memory._replace(promise=Promise(t=0.0, joins=200.0, settled=False))
+    assert promises(memory, joins=400.0)[0][0] <= 5.0
 
 
 @pytest.mark.slow

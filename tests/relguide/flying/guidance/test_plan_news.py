@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import pytest
 
-from relguide.flying.documents import LeaderChanged, PlanChanged
+from relguide.flying.documents import LeaderChanged, PlanChanged, PromiseChanged
 from relguide.flying.flight import IntentKnown, LeaderHeading, LeaderSpeed, Scenario
 from relguide.flying.guidance.announcements import (
     Expectation,
@@ -42,7 +42,9 @@ def announcements(flight: Flown) -> list[PlanChanged]:
 def test_an_untold_turn_is_announced_once_when_it_is_over(fig_6a: Flown) -> None:
     (turning,) = fig_6a.of(LeaderChanged)
     assert turning.t == pytest.approx(TURNED_AT, abs=2.0)
-    assert turning.message == "The leader turns right."
+    assert turning.message == (
+        "The leader turns right and its intent is not known: the join is uncertain."
+    )
     engaged, over = announcements(fig_6a)
     assert engaged.t == 0.0
     assert over.reason == "leader_turned"
@@ -53,6 +55,20 @@ def test_an_untold_turn_is_announced_once_when_it_is_over(fig_6a: Flown) -> None
     rolled_out = min(t for t, now in leader.items() if t > 830.0 and abs(now.bank) < 5.0 * DEG)
     assert over.t <= rolled_out + 2.0 * DEFAULT.settled_for
     assert fig_6a.result.replans_announced == 1
+
+
+def test_a_join_that_moves_is_said_within_5_s_and_the_last_word_is_the_plan_s(
+    fig_6a: Flown,
+) -> None:
+    """The join once moved from 00:43 to 04:06 in five seconds, and 39 s went by in silence."""
+    plans, promises = fig_6a.of(PlanChanged), fig_6a.of(PromiseChanged)
+    jump = next(d for d in plans if d.t > TURNED_AT - 5.0 and d.promised > 120.0)
+    assert 1 <= len(promises) <= 4
+    said = [d for d in promises if jump.t <= d.t <= jump.t + 5.0]
+    assert len(said) == 1
+    assert said[0].promised > said[0].was + 120.0
+    assert said[0].message == "Joins in 3 min 38 s, was 0 min 48 s."
+    assert max(d.t for d in promises) < announcements(fig_6a)[-1].t
 
 
 def test_every_plan_flown_is_kept_whether_announced_or_not(fig_6a: Flown) -> None:
