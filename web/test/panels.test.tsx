@@ -178,7 +178,7 @@ describe("panels", () => {
     );
     expect(now?.querySelector(".figure")?.classList.contains(level)).toBe(true);
     if (level === "alert")
-      expect(place.querySelector(".headline.alert .headline-figure")?.textContent).toBe("3.0");
+      expect(place.querySelector(".headline.lost .headline-figure")?.textContent).toBe("3.0");
     // the first steps do not talk over it
     expect(place.querySelector(".first-minute")).toBeNull();
   });
