@@ -10,6 +10,7 @@ import {
   readFlight,
   readRecord,
 } from "./api";
+import { fetchReference, readCompared, referencesIn, splitReference } from "./compare/opening";
 import { fly, followMode, layOut, mapFromFlight } from "./map/flying";
 import type { Actions, Recording, Session } from "./session";
 import type { FlightStore } from "./store/flight";
@@ -34,6 +35,8 @@ const FIRST_SCENARIO = "fig_6b";
 const RATE = { off: 1, engaged: 10 } as const;
 /** A flight that is younger was begun by this page [s]. */
 const BEGUN = 2;
+/** Two flights are shown first this long after the leader has begun to turn: they begin to differ [s]. */
+const TURNING = 6;
 /** A server that does not answer is asked again this often [ms]. */
 const ASK_AGAIN = 3000;
 
@@ -95,6 +98,13 @@ export function createActions(
     }
     isGrounded = false;
     lookAs(session, address);
+    const [first, other] = referencesIn(address);
+    if (first !== undefined && other !== undefined) {
+      await compare(first, other, readClockText(address.get("t") ?? ""));
+      return;
+    }
+    session.comparison.other.value = null;
+    if (first !== undefined) void compareWith(first);
     if (joined === null) {
       await begin(requestOf(address.get("scenario") ?? FIRST_SCENARIO));
       return;
@@ -139,12 +149,12 @@ export function createActions(
   }
 
   /** Shows a recording in place of the flight; what is wrong with it is said, and all stays as it was. */
-  async function replay(file: Blob, about: Pick<Recording, "id" | "from">): Promise<void> {
+  async function replay(file: Blob, about: Pick<Recording, "id" | "from">): Promise<boolean> {
     say("sending", "Reading the recording…");
     const read = await readFile(file);
     if (read.kind === "refused") {
       say("refused", read.sentence);
-      return;
+      return false;
     }
     stream?.close();
     stream = null;
@@ -161,6 +171,54 @@ export function createActions(
     });
     visit(about.from === "record" ? about.id : null);
     say("done", `Recorded: ${title}.`);
+    return true;
+  }
+
+  /** Shows two flights beside each other, at flight time `t` [s], or else when the leader turns. */
+  async function compare(first: string, other: string, t: number | null): Promise<void> {
+    const since = performance.now();
+    const wait = () => {
+      const seconds = Math.round((performance.now() - since) / 1000);
+      say("sending", `Flying both to their end… ${seconds === 0 ? "" : `${seconds} s`}`);
+    };
+    wait();
+    const waiting = setInterval(wait, 1000);
+    const [shown, beside] = await Promise.all([fetchReference(first), readCompared(other)]);
+    clearInterval(waiting);
+    const refused = [shown, beside].find((each) => each.kind === "refused");
+    if (shown.kind === "refused" || beside.kind === "refused") {
+      say("refused", refused?.kind === "refused" ? refused.sentence : "");
+      if (session.status.value === null) await begin(requestOf(FIRST_SCENARIO));
+      return;
+    }
+    const [kind, id] = splitReference(first);
+    if (!(await replay(shown.value, { id, from: kind === "record" ? "record" : "scenario" })))
+      return;
+    session.comparison.other.value = beside.compared;
+    noteComparison(kind === "record" ? [other] : [first, other]);
+    const turn = session.history().events.find(({ kind }) => kind === "leader_changed");
+    if (t !== null || turn !== undefined) own.moves.seek(t ?? (turn?.t_s ?? 0) + TURNING);
+    say("done", "Both are shown: one solid, the other dashed.");
+  }
+
+  async function compareWith(source: string | File): Promise<void> {
+    say("sending", "Reading the other flight…");
+    const read = await readCompared(source);
+    if (read.kind === "refused") {
+      say("refused", read.sentence);
+      return;
+    }
+    session.comparison.other.value = read.compared;
+    noteComparison(read.compared.reference === null ? [] : [read.compared.reference]);
+    say("done", `Beside it: ${read.compared.title}, dashed.`);
+  }
+
+  /** Notes in the address what is compared. */
+  function noteComparison(references: readonly string[]): void {
+    const address = new URL(location.href);
+    if (references.length === 0) address.searchParams.delete("compare");
+    else address.searchParams.set("compare", references.join(","));
+    history.replaceState(history.state, "", address);
   }
 
   /** Notes in the address which flight is shown: going back shows the one before. */
@@ -394,10 +452,16 @@ export function createActions(
     ...own.moves,
     openRecord(id) {
       void readRecord(id).then((answer) => {
-        if (answer.kind === "done") return replay(answer.value, { id, from: "record" });
-        say("refused", answer.sentence);
+        if (answer.kind === "done") void replay(answer.value, { id, from: "record" });
+        else say("refused", answer.sentence);
       });
     },
     openFile: (file) => void replay(file, { id: file.name, from: "file" }),
+    compare: (first, other) => void compare(first, other, null),
+    compareWith: (other) => void compareWith(other),
+    endComparison() {
+      session.comparison.other.value = null;
+      noteComparison([]);
+    },
   };
 }

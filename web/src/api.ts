@@ -116,9 +116,18 @@ export function listRecords(
   return request("GET", `${ROOT}/records/flights?limit=${most}`);
 }
 
-/** A flight on record as a recording, as a file would hold it. */
-export async function readRecord(id: string): Promise<Answer<Blob>> {
-  const path = `${ROOT}/records/flights/${encodeURIComponent(id)}/export?format=jsonl`;
+/** The forms in which a flight on record can be had. */
+export const EXPORT_FORMS = ["jsonl", "csv", "parquet", "geojson", "czml"] as const;
+export type ExportForm = (typeof EXPORT_FORMS)[number];
+
+/** A flight on record as a file. `place`: where on the earth its x = y = 0 is, for a flight that has none. */
+export async function readRecord(
+  id: string,
+  form: ExportForm = "jsonl",
+  place: { readonly lat: number; readonly lon: number } | null = null,
+): Promise<Answer<Blob>> {
+  const where = place === null ? "" : `&lat_deg=${place.lat}&lon_deg=${place.lon}`;
+  const path = `${ROOT}/records/flights/${encodeURIComponent(id)}/export?format=${form}${where}`;
   try {
     const response = await fetch(path, { signal: AbortSignal.timeout(RECORD_PATIENCE) });
     if (response.ok) return { kind: "done", value: await response.blob() };

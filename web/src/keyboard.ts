@@ -40,6 +40,7 @@ const KEYS: Record<string, (session: Session, actions: Actions) => Act> = {
   c: (_, actions) => () => actions.engage("armed"),
   e: (_, actions) => () => actions.engage("engaged"),
   x: (_, actions) => () => actions.engage("off"),
+  g: ({ chartsOpen }) => set(chartsOpen, !chartsOpen.value),
   m: ({ sceneMaximised }) => set(sceneMaximised, !sceneMaximised.value),
   "?": ({ helpOpen }) => set(helpOpen, !helpOpen.value),
   Escape: ({ helpOpen, recordsOpen, sceneMaximised }) => {

@@ -11,6 +11,7 @@ import "./styles/controls.css";
 import "./styles/numbers.css";
 import "./styles/map.css";
 import "./styles/small.css";
+import "./nd/nd.css";
 import { render } from "preact";
 import { createActions } from "./actions";
 import { followRange } from "./auto-range";

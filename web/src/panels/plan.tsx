@@ -161,7 +161,7 @@ function whenClosest({ when, left }: LeastAhead): string {
 }
 
 function SafetyReadings(props: { numbers: Numbers }) {
-  const { least, plan, leastSoFar, wasLost, minSeparation, margin } = props.numbers;
+  const { least, plan, leastSoFar, wasLost, minSeparation, margin, saving } = props.numbers;
   const known = props.numbers.isIntentKnown;
   return (
     <>
@@ -189,6 +189,7 @@ function SafetyReadings(props: { numbers: Numbers }) {
         label="Leader intent"
         value={known === null ? "unknown" : known ? "YES" : "NO"}
         tone={known === true ? "value" : "plain"}
+        {...(saving !== "" && { note: `known a minute ahead it saves up to ${saving}` })}
       />
       {plan !== null && (
         <Reading

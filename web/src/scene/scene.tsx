@@ -6,7 +6,6 @@
 import {
   type ReadonlySignal,
   type Signal,
-  signal,
   useComputed,
   useSignal,
   useSignalEffect,
@@ -41,16 +40,13 @@ const SHOWS: Record<ViewName, string> = {
 };
 /** How often it is looked whether the server's picture is drawn [ms]. */
 const LOOK = 200;
-const ALWAYS: ReadonlySignal<boolean> = signal(true);
 
 interface Props {
   readonly session: Session;
   readonly actions: Actions;
-  /** Whether the page shows the live edge of the flight: the server's picture knows no other instant. */
-  readonly isLive?: ReadonlySignal<boolean>;
 }
 
-export function Scene({ session, actions, isLive = ALWAYS }: Props) {
+export function Scene({ session, actions }: Props) {
   const { shown, status, sceneMaximised } = session;
   // Loaded only once the flight flies: the scene's page has 0.8 MB, and its picture costs GPU time.
   const flying = useComputed(() => shown.picture.value.pose !== null);
@@ -58,6 +54,8 @@ export function Scene({ session, actions, isLive = ALWAYS }: Props) {
   const maximised = sceneMaximised.value;
   const frame = useRef<HTMLIFrameElement>(null);
   const isDrawn = useSignal(false);
+  // The server's picture knows no other instant than the newest.
+  const isLive = useComputed(() => session.flight.source.value.kind === "live");
   const view = useSignal<ViewName>("Chase");
   const camera = useSignal<Camera | null>(null);
   const size = useSignal<Size>({ width: 0, height: 0 });

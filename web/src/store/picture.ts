@@ -6,7 +6,14 @@
 import { computed, type ReadonlySignal, signal } from "@preact/signals";
 import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometry";
 import { KT, NM } from "../units";
-import type { AircraftSample, ForecastChanged, LeaderRoute, PathPoint, PlanChanged } from "../wire";
+import type {
+  AircraftSample,
+  FanChanged,
+  ForecastChanged,
+  LeaderRoute,
+  PathPoint,
+  PlanChanged,
+} from "../wire";
 import { type Announcements, announcementsOf } from "./announcements";
 import {
   type Closest,
@@ -120,6 +127,8 @@ export interface Picture {
   readonly proposed: Proposal | null;
   readonly superseded: PlanChanged | null;
   readonly forecast: ForecastChanged | null;
+  /** Joins after turns that the leader has not announced, while a path is proposed or flown. */
+  readonly fan: FanChanged | null;
   /** Up to when the path is drawn [s, flight time]. */
   readonly until: number;
   readonly turns: readonly TurnAhead[];
@@ -223,6 +232,7 @@ export function pictureOf(flight: Moment): Picture {
     flown,
     superseded: guided === null ? null : supersededPlan(flight),
     forecast: flight.forecast,
+    fan: isAhead && known.guidance ? flight.fan : null,
     until: shownUntil(flight, guided),
     turns: flown === null ? [] : turnsAhead(flight, flown),
     minutes: flown === null ? [] : minutesAhead(flight, flown),

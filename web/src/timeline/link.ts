@@ -35,7 +35,7 @@ export function followInstant(session: Session): void {
         if (value === null) address.searchParams.delete(name);
         else address.searchParams.set(name, value);
       };
-      if (!address.searchParams.has("flight")) return;
+      if (!["flight", "compare"].some((name) => address.searchParams.has(name))) return;
       put("t", t);
       put("nd", mode === "ROSE" ? mode : null);
       put("range", range);
