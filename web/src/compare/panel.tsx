@@ -1,6 +1,7 @@
 /** Two flights in figures: when each joined, and what it took. */
 
 import { useComputed } from "@preact/signals";
+import { FeedbackLine } from "../panels/flight-controls";
 import { Choice } from "../parts";
 import type { Actions, Session } from "../session";
 import { formatClock, formatMiles } from "../units";
@@ -56,7 +57,7 @@ export function ComparePanel({ session, actions }: { session: Session; actions: 
     <section class="panel compare" aria-labelledby="panel-compare">
       <header>
         <h2 id="panel-compare">
-          {started?.title ?? "This flight"} <i>beside</i> {compared.title}
+          {shortName(started)} beside {shortName(startedOther)}
         </h2>
         <button type="button" class="quiet" onClick={actions.endComparison}>
           Close
@@ -85,6 +86,12 @@ export function ComparePanel({ session, actions }: { session: Session; actions: 
             ))}
           </tbody>
         </table>
+        <dl>
+          <dt class="solid">{shortName(started)}</dt>
+          <dd>{started?.title ?? "The flight that is shown"}</dd>
+          <dt class="dashed">{shortName(startedOther)}</dt>
+          <dd>{compared.title}</dd>
+        </dl>
         {own.value?.isFinal === false && (
           <p class="hint">This flight goes on: its figures so far.</p>
         )}
@@ -92,6 +99,7 @@ export function ComparePanel({ session, actions }: { session: Session; actions: 
           <span class="aligned">Side by side by</span>
           <Choice
             label="Which instants stand side by side"
+            kind="worded"
             options={ALIGNMENTS}
             chosen={how.value}
             text={(each) => ALIGNED[each]}
@@ -105,6 +113,7 @@ export function ComparePanel({ session, actions }: { session: Session; actions: 
             ? `${missing(session, compared.history, how.value)} Until then the clocks are side by side.`
             : shift(offset.value, shortName(startedOther))}
         </p>
+        <FeedbackLine feedback={session.feedback.value} />
       </div>
     </section>
   );
