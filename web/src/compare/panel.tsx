@@ -29,14 +29,14 @@ function whole(value: number): string {
 
 const ROWS: readonly Row[] = [
   { label: "Joined at", unit: "min:s", value: ({ join }) => join, text: formatClock },
-  { label: "Track flown until joined", unit: "NM", value: ({ track }) => track, text: formatMiles },
+  { label: "Track miles", unit: "NM", value: ({ track }) => track, text: formatMiles },
   {
     label: "Least separation",
     unit: "NM",
     value: ({ least }) => least,
     text: (value) => formatMiles(value, 2),
   },
-  { label: "Heading swing until joined", unit: "°", value: ({ swing }) => swing, text: whole },
+  { label: "Heading swing", unit: "°", value: ({ swing }) => swing, text: whole },
   { label: "Bank reversals", unit: "", value: ({ reversals }) => reversals, text: whole },
   { label: "Replans", unit: "", value: ({ replans }) => replans, text: whole },
 ];
@@ -92,6 +92,7 @@ export function ComparePanel({ session, actions }: { session: Session; actions: 
           <dt class="dashed">{shortName(startedOther)}</dt>
           <dd>{compared.title}</dd>
         </dl>
+        <p class="hint">Track, swing and reversals are counted until joined.</p>
         {own.value?.isFinal === false && (
           <p class="hint">This flight goes on: its figures so far.</p>
         )}
