@@ -48,6 +48,8 @@ const ENGAGING: Record<Engagement, { doing: string; done: string }> = {
   engaged: { doing: "Engaging…", done: "Relative guidance is engaged." },
 };
 
+/** A flight that stands so early waits for its crew's orders: each lets it go on [s]. */
+const BEGINNING = 4;
 /** A refusal that comes so much later is about what somebody else commanded [ms]. */
 const LATEST = 3000;
 /** What is said to who commands a flight that is no more. */
@@ -80,6 +82,8 @@ export function createActions(
   let engagement: keyof typeof RATE = "off";
   /** When this page last gave a command [ms]. */
   let commanded = Number.NEGATIVE_INFINITY;
+  /** Whether a flight that went on for an acceptance stands again once that is taken. */
+  let standsAgain = false;
   /** Whether the page began with the map alone, so that nothing flies yet. */
   let isGrounded = false;
 
@@ -92,6 +96,7 @@ export function createActions(
       isGrounded = joined === null;
       if (isGrounded) return;
     }
+    isGrounded = false;
     lookAs(session, address);
     const [first, other] = referencesIn(address);
     if (first !== undefined && other !== undefined) {
@@ -102,6 +107,11 @@ export function createActions(
     if (first !== undefined) void compareWith(first);
     if (joined === null) {
       await begin(requestOf(address.get("scenario") ?? FIRST_SCENARIO));
+      return;
+    }
+    if (stream !== null && joined === session.status.value?.id) {
+      const t = readClockText(address.get("t") ?? "");
+      if (t !== null) own.moves.seek(t);
       return;
     }
     const answer = await readFlight(joined);
@@ -229,6 +239,13 @@ export function createActions(
     if (last === null || last.engagement !== last.previous) return;
     if (performance.now() - commanded < LATEST) untracked(() => say("refused", last.message));
   });
+  // What stands takes orders when it goes on: once a path is accepted it stands again, to be read.
+  effect(() => {
+    if (session.flight.moment.value.engagement?.engagement !== "armed" || !standsAgain) return;
+    standsAgain = false;
+    const { doing, done } = ENGAGING.armed;
+    untracked(() => void command({ command: "pause" }, doing, done));
+  });
   followMode(session);
   // Whoever leaves the map without a flight sees the one that a page begins with.
   effect(() => {
@@ -255,7 +272,8 @@ export function createActions(
     if (answer.kind === "done") {
       show(answer.value);
       flies();
-      say("done", `New flight: ${answer.value.title}.`);
+      const waits = wanted.paused === true ? " It waits: accept what is proposed, or play." : "";
+      say("done", `New flight: ${answer.value.title}.${waits}`);
     } else if (answer.retryAfter !== undefined) {
       session.outage.value = null;
       say("sending", `${answer.sentence} It will start by itself.`);
@@ -319,6 +337,11 @@ export function createActions(
     session.feedback.value = { kind, text };
   }
 
+  function standsAtStart(): boolean {
+    const { clock, moment } = session.flight;
+    return clock.value.paused && moment.value.t < BEGINNING;
+  }
+
   async function end(): Promise<void> {
     const status = session.status.value;
     if (status === null) return;
@@ -375,6 +398,10 @@ export function createActions(
       void command({ command: "set_engagement", engagement }, doing, done).then(() => {
         // what it refuses at once brings no document
         if (session.feedback.value.kind === "refused") session.flight.isSent.value = false;
+        else if (standsAtStart()) {
+          standsAgain = engagement === "armed";
+          void command({ command: "play" }, doing, done);
+        }
       });
     },
     ownHeading(heading) {

@@ -30,7 +30,7 @@ const SMALL = "(max-width: 999px)";
 
 const MapBench = late(async () => (await import("./map/bench")).MapBench, "The map is on its way.");
 const PlanMap = late(async () => (await import("./map/map")).PlanMap, "The map is on its way.");
-const HowTo = late(async () => (await import("./map/how-to")).HowTo, "");
+const UnderMap = late(async () => (await import("./map/under-map")).UnderMap, "");
 const Help = late(async () => (await import("./panels/help")).Help, "");
 const Charts = late(
   async () => (await import("./charts/charts")).Charts,
@@ -73,7 +73,11 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
           {!isMap && <Captions session={session} />}
           <div class="below">
             {small.value && !isMap && <Engage session={session} actions={actions} />}
-            {isMap ? <HowTo /> : <Events session={session} />}
+            {isMap ? (
+              <UnderMap session={session} actions={actions} isSmall={small.value} />
+            ) : (
+              <Events session={session} />
+            )}
             {narrow.value && !isMap && <Aircraft session={session} actions={actions} />}
           </div>
         </section>

@@ -10,6 +10,7 @@ const REST = 300;
 export function lookAs({ ndMode, ndRange, ndAuto }: Session, link: URLSearchParams): void {
   const mode = link.get("nd");
   if (mode === "ARC" || mode === "ROSE") ndMode.value = mode;
+  else if (ndMode.value === "PLAN" && !link.has("plan")) ndMode.value = "ARC";
   const range = ND_RANGES.find((each) => String(each) === link.get("range"));
   if (range === undefined) return;
   ndAuto.value = false;
