@@ -48,7 +48,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
     <>
       <Header session={session}>
         <ScenarioPicker session={session} actions={actions} />
-        <button type="button" class="quiet" onClick={() => actions.compare(...FIGURES)}>
+        <button type="button" onClick={() => actions.compare(...FIGURES)}>
           Fig. 6a beside 6b
         </button>
         <FirstStart readiness={session.firstStart} />

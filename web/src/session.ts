@@ -157,7 +157,7 @@ export function createSession(
     ndMode: signal("ARC"),
     ndRange: signal(40),
     ndAuto: signal(true),
-    map: createEditor(),
+    map: createEditor(comparison.ghost),
     sceneMaximised: signal(false),
     helpOpen: signal(false),
     letterKeys: signal(true),
