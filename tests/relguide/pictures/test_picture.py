@@ -117,7 +117,7 @@ def test_nothing_is_no_flight() -> None:
 def test_in_pixels(recording: Path) -> None:
     png = picture(recording, 560.0).png(zoom=1)
     assert png[:8] == b"\x89PNG\r\n\x1a\n"
-    assert (int.from_bytes(png[16:20]), int.from_bytes(png[20:24])) == (768, 824)
+    assert (int.from_bytes(png[16:20]), int.from_bytes(png[20:24])) == (768, 803)
     with pytest.raises(ValueError, match="zoom must be a whole number from 1 to 8, not 0"):
         Picture("<svg/>").png(zoom=0)
 
