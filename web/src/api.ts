@@ -59,12 +59,12 @@ export function commandFlight(id: string, command: Command): Promise<Answer<Flig
   return request("POST", `${ROOT}/flights/${encodeURIComponent(id)}/commands`, command);
 }
 
-/** A plan with the other paths to the slot, those that are drawn included; within `most` [ms]. */
+/** A plan with its flight and the other paths to the slot, those that are drawn included; within `most` [ms]. */
 export function planSituation(
   situation: SituationBody,
   most: number,
 ): Promise<Answer<PlanAnswer & { readonly others?: readonly OtherPathCard[] }>> {
-  const query = `include=alternatives,paths&max_ms=${most}`;
+  const query = `include=alternatives,paths,flown&max_ms=${most}`;
   return request("POST", `${ROOT}/plans?${query}`, situation);
 }
 

@@ -121,6 +121,18 @@ export const ELEMENTS: readonly Element[] = [
     "key-dotted",
   ),
   element(
+    "fan",
+    "Joins if it turns",
+    "dotted, a hollow diamond at each end: where and when own ship joins if the leader, whose intent is not known, turns by 10°, 20° or 30° now",
+    "key-dotted",
+  ),
+  element(
+    "tube",
+    "Width of the path",
+    "dotted, on both sides of it: so far aside own ship may come, by what is uncertain of the leader and the wind",
+    "key-dotted",
+  ),
+  element(
     "active",
     "Path",
     "solid, green: the path being flown, as the aircraft will really fly it",

@@ -79,7 +79,7 @@ def load(planner: str | Planner) -> None:
     """Get ready to plan: in a process of its own that takes a second."""
     load_kernels()
     for situation in LOADING:
-        plan_situation(situation, Unanchored(), planner, ("alternatives",), None)
+        plan_situation(situation, Unanchored(), planner, ("alternatives", "flown"), None)
 
 
 def planner_of(planner: str | Planner) -> Planner:

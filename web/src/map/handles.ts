@@ -10,20 +10,46 @@ import {
   type Pose,
   project,
 } from "../nd/view";
-import { DEG, formatHeading, formatKnots, formatMiles, KT, NM, wrap360 } from "../units";
+import {
+  DEG,
+  formatClock,
+  formatHeading,
+  formatKnots,
+  formatMiles,
+  KT,
+  NM,
+  wrap360,
+} from "../units";
 import { leaderRoute, slotNow } from "./leader-route";
-import { BOUNDS, type Situation, stepMiles } from "./situation";
+import { BOUNDS, MOST_PIECES, type Situation, stepMiles } from "./situation";
+import {
+  beginTurnAt,
+  delayTurn,
+  firstTurn,
+  leadTurnTo,
+  leadTurnTowards,
+  straightBefore,
+} from "./turn-handles";
 
 export const HANDLES = [
   "ring",
   "slot",
   "leader",
   "leader-heading",
+  "turn",
+  "turn-heading",
   "own",
   "own-heading",
   "wind",
 ] as const;
 export type HandleName = (typeof HANDLES)[number];
+
+/** Those that a situation has: a leader that declares no turn has none to be dragged. */
+export function handlesOf(situation: Situation): readonly HandleName[] {
+  return firstTurn(situation) === null
+    ? HANDLES.filter((name) => name !== "turn" && name !== "turn-heading")
+    : HANDLES;
+}
 
 /** How a handle is said, and its value as a number for those who do not see it. */
 export interface Said {
@@ -64,6 +90,12 @@ export function handlePoint(
       return towards(at(pursuer), pursuer.heading_deg, STICK);
     case "leader-heading":
       return towards(at(leader), leader.heading_deg, STICK);
+    case "turn":
+      return at(firstTurn(situation)?.begins ?? leader);
+    case "turn-heading": {
+      const end = firstTurn(situation)?.ends ?? leader;
+      return towards(at(end), end.heading_deg, STICK);
+    }
     case "slot":
       return at(slotOf(situation).point);
     case "ring":
@@ -109,6 +141,10 @@ export function dragHandle(
         ...situation,
         leader: { ...leader, heading_deg: Math.round(bearing(leader, place)) },
       };
+    case "turn":
+      return beginTurnAt(situation, place);
+    case "turn-heading":
+      return leadTurnTowards(situation, place);
     case "slot":
       return withSlot(situation, along(slotOf(situation), place));
     case "ring":
@@ -185,6 +221,12 @@ export function keyHandle(
       return { ...situation, pursuer: turn(pursuer) };
     case "leader-heading":
       return { ...situation, leader: turn(leader) };
+    case "turn":
+      return delayTurn(situation, (right + up) * (isFine ? 1 : 10));
+    case "turn-heading": {
+      const heading = firstTurn(situation)?.piece.turn_to_heading_deg ?? 0;
+      return leadTurnTo(situation, Math.round(heading) + (right + up) * (isFine ? 1 : 5));
+    }
     case "slot":
       return withSlot(situation, stepMiles(situation.slot_distance_m, miles));
     case "ring":
@@ -233,6 +275,21 @@ export function sayHandle(name: HandleName, situation: Situation): Said {
       return heading("Own ship's heading", pursuer.heading_deg);
     case "leader-heading":
       return heading("Leader's heading", leader.heading_deg);
+    case "turn": {
+      const before = Math.round(straightBefore(situation));
+      return {
+        label: "Leader's turn: how long until it begins",
+        text: `in ${formatClock(before)}`,
+        value: before,
+        least: 0,
+        most: MOST_PIECES * BOUNDS.piece[1],
+      };
+    }
+    case "turn-heading":
+      return heading(
+        "Leader's turn: to heading",
+        firstTurn(situation)?.piece.turn_to_heading_deg ?? leader.heading_deg,
+      );
     case "slot":
       return miles("Slot distance D", situation.slot_distance_m);
     case "ring":

@@ -12,6 +12,7 @@ import { forecastIndex, pointsAfter } from "../store/forecast";
 import { captureLabel } from "./capture";
 import { circleLabel } from "./circle";
 import { closestLabel } from "./closest";
+import { FAN_IDS, fanLabels } from "./fan";
 import { ghostLabels } from "./ghost";
 import { intentLabels } from "./intent";
 import { type Label, LINE_HEIGHT, type Placement, placeLabels } from "./labels";
@@ -39,6 +40,7 @@ function labelsOf(props: LayerProps): Label[] {
     ...turnLabels(props),
     ...intentLabels(props),
     ...minuteLabels(props),
+    ...fanLabels(props),
   ].filter((label) => label !== null);
 }
 
@@ -55,6 +57,7 @@ const IDS = [
   ...[1, 2, 3, 4, 5, 6, 7, 8].map((i) => `T${i}`),
   "intent",
   ...[0, 1, 2].map((i) => `leg ${i}`),
+  ...FAN_IDS,
   ...[5, 10, 15, 20, 25, 30, 35, 40].flatMap((i) => [`minute ${i} own`, `minute ${i} leader`]),
   ...[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11].map(regionId),
 ];
@@ -66,6 +69,7 @@ const NAMED = {
   intent: "intent",
   leg: "intent",
   minute: "minutes",
+  fan: "fan",
   region: "area",
   T: "turns",
 } as const;

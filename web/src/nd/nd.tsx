@@ -11,6 +11,7 @@ import { SeparationCircle } from "./circle";
 import { ClosestApproach } from "./closest";
 import { CommandedHeading, CommandedTurn } from "./commanded";
 import { CrossTrack } from "./crosstrack";
+import { Fan } from "./fan";
 import { FinalTrack } from "./final";
 import { Flags } from "./flags";
 import { ModeStrip } from "./fma";
@@ -36,6 +37,7 @@ import { HeadingTape, LubberLine } from "./tape";
 import { TimingScale } from "./timing";
 import { TrackDiamond, TrackLine } from "./track";
 import { TrendVector } from "./trend";
+import { Tube } from "./tube";
 import { TurnPoints } from "./turns";
 import { type Carrier, createView, type DisplayMode, SIZE } from "./view";
 
@@ -49,12 +51,13 @@ interface Sheet {
 
 /** The world, bottom to top, by what each part of it moves with. */
 const MAP_SHEETS: readonly Sheet[] = [
-  { by: "map", layers: [OtherFlight, LeaderIntent, LeaderHistory] },
+  { by: "map", layers: [OtherFlight, LeaderIntent, LeaderHistory, Fan] },
   { by: "leader", layers: [SeparationCircle, MarginCircle] },
   {
     by: "map",
     layers: [
       FinalTrack,
+      Tube,
       OtherPaths,
       SupersededPath,
       ProposedPath,

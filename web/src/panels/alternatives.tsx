@@ -15,7 +15,7 @@ const STATE: Partial<Record<Guidance, string>> = { proposed: "proposed", armed: 
 export function Alternatives(props: { session: Pick<Session, "shown"> }) {
   const { shown } = props.session;
   const { plan: shownPlan, state } = shown.numbers.value;
-  const plan = shownPlan?.plan;
+  const plan = shownPlan?.ideal ?? shownPlan?.plan;
   return (
     <Panel
       name="alternatives"
@@ -45,7 +45,7 @@ export function Alternatives(props: { session: Pick<Session, "shown"> }) {
                 {plan.word}
               </th>
               <td>{formatClock(plan.time_to_converge_s)}</td>
-              <td>{STATE[state] ?? "flown"}</td>
+              <td>{shownPlan?.ideal !== undefined ? "ideal" : (STATE[state] ?? "flown")}</td>
             </tr>
             {(plan.alternatives ?? []).map((alternative) => (
               <tr key={alternativeKey(alternative)}>

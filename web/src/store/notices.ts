@@ -1,7 +1,15 @@
 /** What the message line says: warnings before cautions before advice, one at a time. */
 
-import { formatMiles } from "../units";
-import type { Alert, AlertSubject, Mode, PlanReason, Reason, UnableReason } from "../wire";
+import { formatClock, formatMiles } from "../units";
+import type {
+  Alert,
+  AlertSubject,
+  Mode,
+  PlanReason,
+  PromiseChanged,
+  Reason,
+  UnableReason,
+} from "../wire";
 import type { Colour } from "./colours";
 import { AGE, GUIDANCE } from "./state-styles";
 import {
@@ -124,6 +132,9 @@ export function noticesOf(flight: Moment): readonly Notice[] {
   const plan = flight.plan;
   if (plan?.announced === true && unavailable === null && isNews(plan.t_s))
     notices.push({ level: "advice", text: REPLANNED[plan.reason] });
+  const promise = flight.promise;
+  if (promise !== null && unavailable === null && isNews(promise.t_s))
+    notices.push({ level: "advice", text: joinText(promise) });
   const mode = flight.mode;
   const isNew = mode !== null && state !== "data_lost" && isNews(mode.t_s);
   if (isNew && !(mode.mode === "converge" && notices.length > 0))
@@ -149,6 +160,12 @@ function promptOf(flight: Moment, state: Guidance): Notice | null {
     default:
       return null;
   }
+}
+
+/** The new time to the join, and what was said before: both as of that moment. */
+function joinText({ promised_s, was_s = 0 }: PromiseChanged): string {
+  const joins = `JOIN ${formatClock(promised_s)}`;
+  return was_s > 0 ? `${joins} WAS ${formatClock(was_s)}` : joins;
 }
 
 /** Whether the separation was lost a moment ago. */

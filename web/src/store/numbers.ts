@@ -13,7 +13,7 @@ import {
   KT,
   NM,
 } from "../units";
-import type { AircraftSample, PathPoint } from "../wire";
+import type { AircraftSample, FanChanged, PathPoint } from "../wire";
 import {
   closestApproach,
   committedPoint,
@@ -111,6 +111,8 @@ export interface Numbers {
   readonly minSeparation: string;
   /** What is kept beside MIN for what is not certain [NM]; "" where all is exact. */
   readonly margin: string;
+  /** How much sooner it joins if it knows of the leader's turn a minute ahead; "" where none is saved. */
+  readonly saving: string;
   readonly separation: string;
   readonly closure: string;
   /** Offset from the leader's route, "0.3R"; "" below 0.05 NM. */
@@ -178,6 +180,7 @@ export function numbersOf(flight: Moment): Numbers {
     slotDistance: started === null ? NOTHING : formatMiles(started.slot_distance_m),
     minSeparation: started === null ? NOTHING : formatMiles(started.min_separation_m),
     margin: guided === null || guided.margin_m <= 0 ? "" : formatMiles(guided.margin_m, 2),
+    saving: guided === null || flight.fan === null ? "" : savingText(flight.fan),
     separation: shown === null ? NOTHING : formatMiles(shown.separation_m),
     closure: shown === null ? NOTHING : formatSignedKnots(shown.closure_mps),
     crossTrack: shown === null ? NOTHING : formatSide(shown.cross_track_m),
@@ -205,6 +208,13 @@ export function numbersOf(flight: Moment): Numbers {
     leaderBearing: shown === null ? "" : formatHeading(bearingTo(shown.pursuer, shown.leader)),
     leaderSpeed: shown === null ? "" : formatKnots(shown.leader.ground_speed_mps),
   };
+}
+
+/** Less than this is not worth saying [s]. */
+const SAVED = 5;
+
+function savingText({ most_saved_s: most, mean_saved_s: mean }: FanChanged): string {
+  return most < SAVED ? "" : `${formatClock(most)}, on average ${formatClock(mean)}`;
 }
 
 /** A separation no farther above the least is the least itself, but for rounding [m]. */

@@ -8,11 +8,11 @@ import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometr
 import { KT, NM } from "../units";
 import type {
   AircraftSample,
+  FanChanged,
   ForecastChanged,
   LeaderRoute,
   PathPoint,
   PlanChanged,
-  PlanProposed,
 } from "../wire";
 import { type Announcements, announcementsOf } from "./announcements";
 import {
@@ -50,7 +50,7 @@ import {
   separation,
 } from "./states";
 import type { TrailPoint } from "./trail";
-import type { Flight, Moment } from "./types";
+import type { Flight, Moment, Proposal } from "./types";
 
 export type { Moved } from "./motion";
 
@@ -124,9 +124,11 @@ export interface Picture {
   /** The plan whose points are shown: flown, or proposed. */
   readonly flown: Planned | null;
   /** The path that is proposed, accepted or not. */
-  readonly proposed: PlanProposed | null;
+  readonly proposed: Proposal | null;
   readonly superseded: PlanChanged | null;
   readonly forecast: ForecastChanged | null;
+  /** Joins after turns that the leader has not announced, while a path is proposed or flown. */
+  readonly fan: FanChanged | null;
   /** Up to when the path is drawn [s, flight time]. */
   readonly until: number;
   readonly turns: readonly TurnAhead[];
@@ -230,6 +232,7 @@ export function pictureOf(flight: Moment): Picture {
     flown,
     superseded: guided === null ? null : supersededPlan(flight),
     forecast: flight.forecast,
+    fan: isAhead && known.guidance ? flight.fan : null,
     until: shownUntil(flight, guided),
     turns: flown === null ? [] : turnsAhead(flight, flown),
     minutes: flown === null ? [] : minutesAhead(flight, flown),

@@ -123,7 +123,8 @@ function takePlan(known: Known, changed: PlanChanged): Known {
     plan: changed,
     unavailable: null,
     unable: null,
-    promise: null,
+    // what is not announced says nothing, so that what was said last still holds
+    promise: changed.announced ? null : known.promise,
   };
 }
 

@@ -28,8 +28,8 @@ const PARTS: Record<Document["kind"], readonly string[]> = {
   alert: ["ident", "other", "level", "subject", "message"],
   unable: ["ident", "reason", "message"],
   separation_lost: ["ident", "cause"],
-  fan_changed: ["ident", "joins", "most_saved_s", "mean_saved_s"],
   forecast_changed: ["ident", "times_s", "x_m", "y_m", "heading_deg", "pursuer_at_closest"],
+  fan_changed: ["ident", "joins", "most_saved_s", "mean_saved_s"],
   sample: ["aircraft", "guidance"],
   flight_ended: ["reason", "message", "results"],
 };
