@@ -45,6 +45,7 @@ describe.each(GUIDANCES)("%s", (state) => {
   test("is one drawing, each attribute once and with its value", () => {
     expect(drawn.match(/<svg /g)).toHaveLength(1);
     expect(faults(drawn)).toEqual([]);
+    expect(drawn).not.toMatch(/<(text|g)[^>]*(?:\/>|><\/\1>)/); // nothing that draws nothing
     for (const [tag] of drawn.matchAll(/<\w[^>]*>/g)) {
       const names = [...tag.matchAll(/ ([\w:-]+)="/g)].map(([, name]) => name);
       expect(new Set(names).size, tag).toBe(names.length);
