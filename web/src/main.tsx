@@ -20,6 +20,7 @@ import { isTaken, keyAction } from "./keyboard";
 import { followAddress } from "./map/address";
 import { followMap } from "./map/asking";
 import { drawPictures } from "./pace";
+import { followPlanners } from "./planners";
 import { keepPreferences } from "./preferences";
 import { createSession } from "./session";
 import { soundAlerts } from "./sound";
@@ -37,6 +38,7 @@ followRange(session);
 followMap(session);
 followAddress(session);
 followInstant(session);
+followPlanners(session.planners, store.flight);
 takeDroppedFiles(actions);
 
 const place = document.querySelector("#cockpit");

@@ -3,6 +3,7 @@
 import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
 import { createEditor, type Editor } from "./map/editor";
+import { createPlanners, type Planners } from "./planners";
 import { createHistory, type History } from "./store/history";
 import { createShown, type Shown } from "./store/picture";
 import type { Flight } from "./store/types";
@@ -66,6 +67,8 @@ export interface Session {
   readonly ndAuto: Signal<boolean>;
   /** What is laid out on the map. */
   readonly map: Editor;
+  /** Four planners side by side. */
+  readonly planners: Planners;
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
@@ -129,6 +132,7 @@ export function createSession(
   firstStart: Signal<Readiness | null> = signal(null),
   history: () => History = createHistory,
 ): Session {
+  const planners = createPlanners();
   return {
     flight,
     history,
@@ -136,7 +140,7 @@ export function createSession(
     replayRate: signal(1),
     timeRefusal: signal(""),
     recordsOpen: signal(false),
-    shown: createShown(flight),
+    shown: createShown(flight, undefined, planners.rivals),
     scenarios: signal([]),
     status: signal(null),
     feedback: signal({ kind: "none" }),
@@ -145,6 +149,7 @@ export function createSession(
     ndRange: signal(40),
     ndAuto: signal(true),
     map: createEditor(),
+    planners,
     sceneMaximised: signal(false),
     helpOpen: signal(false),
     letterKeys: signal(true),
