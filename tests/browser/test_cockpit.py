@@ -119,7 +119,7 @@ def test_nothing_is_cut(page: Page, watched: Watch, size: tuple[int, int]) -> No
 
 
 def test_a_small_page_shows_the_aircraft_under_every_caption(page: Page, watched: Watch) -> None:
-    """The captions of the first minute take no more than two lines."""
+    """The captions of the first minute stand beside it, in the place of the events."""
     page.set_viewport_size({"width": 1024, "height": 768})
     caption = page.get_by_label("First steps").locator("b")
     for number, step in ((4, None), (5, "Next"), (1, "x"), (2, "d"), (3, "c")):
