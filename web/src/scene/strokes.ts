@@ -6,6 +6,7 @@ import { LINES, SEPARATION } from "../nd/style";
 import { onwards, type Place } from "../nd/view";
 import type { Colour } from "../store/colours";
 import { forecastIndex, pointsAfter } from "../store/forecast";
+import type { Ghost } from "../store/ghost";
 import type { Picture } from "../store/picture";
 import type { TrailPoint } from "../store/trail";
 import { FT, NM } from "../units";
@@ -55,7 +56,12 @@ export function middleOf(now: { readonly pursuer: Place; readonly leader: Place 
   return { x_m: (pursuer.x_m + leader.x_m) / 2, y_m: (pursuer.y_m + leader.y_m) / 2 };
 }
 
-export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[] {
+export function strokesOf(
+  picture: Picture,
+  camera: Camera,
+  size: Size,
+  ghost: Ghost | null = null,
+): Stroke[] {
   const { now, style, route, wind, t, leader } = picture;
   if (now === null) return [];
   const glass = glassOf(camera, middleOf(now), size);
@@ -111,6 +117,21 @@ export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[
     ]);
     add("slot-drop", foot, { colour: style.slotColour, width: 0.8, dash: "" });
     add("slot", edges.join(""), { colour: style.slotColour, width: 1.6, dash: "" });
+  }
+  if (ghost !== null) {
+    add("own-flown", glass.line(raise(ghost.own, now.pursuer.altitude_m)), LINES.beside);
+    add("other-flown", glass.line(raise(ghost.flown, ghost.pursuer.altitude_m)), LINES.other);
+    for (const [name, aircraft] of [
+      ["other", ghost.pursuer],
+      ["other-leader", ghost.leader],
+    ] as const)
+      for (const facet of aircraft === null ? [] : airliner(aircraft, length, glass))
+        add(`${name}-${facet.name}`, facet.d, {
+          colour: "superseded",
+          width: 0,
+          dash: "",
+          light: 0.7 * facet.light,
+        });
   }
   const both = [
     { name: "own", aircraft: now.pursuer, colour: "ownship" as const },
