@@ -4,6 +4,7 @@ import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
 import { type Comparison, createComparison } from "./compare/compared";
 import { createEditor, type Editor } from "./map/editor";
+import { createPlanners, type Planners } from "./planners";
 import { createHistory, type History } from "./store/history";
 import { createShown, type Shown } from "./store/picture";
 import type { Flight } from "./store/types";
@@ -67,10 +68,15 @@ export interface Session {
   readonly ndAuto: Signal<boolean>;
   /** What is laid out on the map. */
   readonly map: Editor;
+<<<<<<< HEAD
   /** The flight that is seen beside the shown one, if there is one. */
   readonly comparison: Comparison;
   /** Whether the flight is drawn over time in the scene's place. */
   readonly chartsOpen: Signal<boolean>;
+=======
+  /** Four planners side by side. */
+  readonly planners: Planners;
+>>>>>>> h-outlook
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
@@ -139,7 +145,11 @@ export function createSession(
   firstStart: Signal<Readiness | null> = signal(null),
   history: () => History = createHistory,
 ): Session {
+<<<<<<< HEAD
   const comparison = createComparison(flight, history);
+=======
+  const planners = createPlanners();
+>>>>>>> h-outlook
   return {
     flight,
     history,
@@ -147,9 +157,13 @@ export function createSession(
     replayRate: signal(1),
     timeRefusal: signal(""),
     recordsOpen: signal(false),
+<<<<<<< HEAD
     shown: createShown(flight, comparison.ghost),
     comparison,
     chartsOpen: signal(false),
+=======
+    shown: createShown(flight, undefined, planners.rivals),
+>>>>>>> h-outlook
     scenarios: signal([]),
     status: signal(null),
     feedback: signal({ kind: "none" }),
@@ -157,7 +171,12 @@ export function createSession(
     ndMode: signal("ARC"),
     ndRange: signal(40),
     ndAuto: signal(true),
+<<<<<<< HEAD
+    map: createEditor(comparison.ghost),
+=======
     map: createEditor(),
+    planners,
+>>>>>>> h-outlook
     sceneMaximised: signal(false),
     helpOpen: signal(false),
     letterKeys: signal(true),

@@ -78,6 +78,11 @@ export function strokesOf(
   const past = { width: 2, dash: "", opacity: 0.7 };
   add("own-past", marks(picture.ownTrail, now.pursuer, glass), { colour: "ownship", ...past });
   add("leader-past", marks(picture.trail, now.leader, glass), { colour: "leader", ...past });
+  if (ghost !== null) {
+    const { pursuer, flown } = ghost;
+    add("other-drop", dropLine(pursuer, glass), { ...LINES.other, width: 1 });
+    add("other-path", glass.line(raise(flown, pursuer.altitude_m)), LINES.other);
+  }
   if (route !== null) {
     const look = route.intent_known ? LINES.declared : LINES.extrapolated;
     add("route", glass.line(raise(samplePath(route.segments, wind, t), other)), look);
@@ -136,6 +141,9 @@ export function strokesOf(
   const both = [
     { name: "own", aircraft: now.pursuer, colour: "ownship" as const },
     ...(leader === null ? [] : [{ name: "leader", aircraft: leader, colour: hue }]),
+    ...(ghost === null
+      ? []
+      : [{ name: "other", aircraft: ghost.pursuer, colour: LINES.other.colour }]),
   ];
   for (const { name, aircraft, colour } of both.sort((a, b) => far(b.aircraft) - far(a.aircraft)))
     for (const facet of airliner(aircraft, length, glass))
