@@ -68,15 +68,12 @@ export interface Session {
   readonly ndAuto: Signal<boolean>;
   /** What is laid out on the map. */
   readonly map: Editor;
-<<<<<<< HEAD
   /** The flight that is seen beside the shown one, if there is one. */
   readonly comparison: Comparison;
   /** Whether the flight is drawn over time in the scene's place. */
   readonly chartsOpen: Signal<boolean>;
-=======
   /** Four planners side by side. */
   readonly planners: Planners;
->>>>>>> h-outlook
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
@@ -145,11 +142,8 @@ export function createSession(
   firstStart: Signal<Readiness | null> = signal(null),
   history: () => History = createHistory,
 ): Session {
-<<<<<<< HEAD
   const comparison = createComparison(flight, history);
-=======
   const planners = createPlanners();
->>>>>>> h-outlook
   return {
     flight,
     history,
@@ -157,13 +151,10 @@ export function createSession(
     replayRate: signal(1),
     timeRefusal: signal(""),
     recordsOpen: signal(false),
-<<<<<<< HEAD
-    shown: createShown(flight, comparison.ghost),
+    shown: createShown(flight, comparison.ghost, planners.rivals),
     comparison,
+    planners,
     chartsOpen: signal(false),
-=======
-    shown: createShown(flight, undefined, planners.rivals),
->>>>>>> h-outlook
     scenarios: signal([]),
     status: signal(null),
     feedback: signal({ kind: "none" }),
@@ -171,12 +162,7 @@ export function createSession(
     ndMode: signal("ARC"),
     ndRange: signal(40),
     ndAuto: signal(true),
-<<<<<<< HEAD
     map: createEditor(comparison.ghost),
-=======
-    map: createEditor(),
-    planners,
->>>>>>> h-outlook
     sceneMaximised: signal(false),
     helpOpen: signal(false),
     letterKeys: signal(true),
