@@ -2,7 +2,7 @@
 
 Viser sets an `asyncio.Event` from the thread that adds to a scene, to have its value changed at
 once, and then again on its own loop, to wake what waits. If the loop begins to wait at the very
-moment of the first, asyncio raises, and the scene would end. The second call does all that is needed.
+moment of X
 """
 
 import contextlib
