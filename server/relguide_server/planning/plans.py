@@ -12,9 +12,8 @@ from starlette.responses import Response, StreamingResponse
 from relguide.contract.answers import INCLUDABLE, Form, read_include
 from relguide.contract.bodies import NamedSituationBody, SituationBody
 from relguide.contract.bulk import refused_line
-from relguide.contract.messages import PlanAnswer, model_of
+from relguide.contract.messages import PlanAnswer, PlannerComparison, model_of
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
-from relguide.flying.verdicts import PlannerVerdict
 from relguide_server.http.bodies import (
     GEOJSON,
     JSON,
@@ -92,14 +91,6 @@ class PlanFeatures(BaseModel):
     status: Literal["planned", "no_plan"] = Field(description="Whether there is a plan.")
 
 
-class PlannerComparison(BaseModel):
-    """What planners would fly in one situation."""
-
-    planners: list[model_of(PlannerVerdict)] = Field(  # type: ignore[valid-type]
-        description="`exact`, `network`, `regular_dp` and `printed_network`, in this order."
-    )
-
-
 _ID: dict[str, Any] = {"id": (str | int, Field(default="", description="As in the request."))}
 NamedPlan: type[BaseModel] = create_model(
     "NamedPlan", __base__=model_of(PlanCard), __doc__="A plan of a batch.", **_ID
@@ -125,7 +116,7 @@ class BatchQuery(BaseModel):
         "along the minimum separation that takes seconds more than `max_ms`. `flown`: the flight "
         "that guidance makes of it, engaged at once: rolls, a berth beside the minimum "
         "separation and braking included.",
-        examples=["alternatives,optimality"],
+        examples=["alternatives,optimality", "flown"],
         json_schema_extra={"pattern": INCLUDES},
     )
     max_ms: float = Field(
