@@ -71,6 +71,9 @@ if typing.TYPE_CHECKING:
     from relguide.maps.isochrones import Grid as Grid
     from relguide.maps.isochrones import Isochrones as Isochrones
     from relguide.maps.isochrones import isochrones as isochrones
+    from relguide.pictures.flight import Flight as Flight
+    from relguide.pictures.picture import Picture as Picture
+    from relguide.pictures.picture import picture as picture
     from relguide.planning.alternatives import Alternative as Alternative
     from relguide.planning.alternatives import alternatives as alternatives
     from relguide.planning.arrival import Arrival as Arrival
@@ -163,6 +166,9 @@ _HOMES = {
     "Grid": "relguide.maps.isochrones",
     "Isochrones": "relguide.maps.isochrones",
     "isochrones": "relguide.maps.isochrones",
+    "Flight": "relguide.pictures.flight",
+    "Picture": "relguide.pictures.picture",
+    "picture": "relguide.pictures.picture",
     "Alternative": "relguide.planning.alternatives",
     "alternatives": "relguide.planning.alternatives",
     "Arrival": "relguide.planning.arrival",
@@ -223,6 +229,7 @@ __all__ = [
     "Document",
     "EngagementChanged",
     "FanChanged",
+    "Flight",
     "FlightEnded",
     "FlightStarted",
     "FlyStraight",
@@ -242,6 +249,7 @@ __all__ = [
     "NoPlan",
     "Optimality",
     "OptimalityReport",
+    "Picture",
     "Plan",
     "PlanChanged",
     "PlanProposed",
@@ -282,6 +290,7 @@ __all__ = [
     "load_settings",
     "load_track",
     "own_scenario",
+    "picture",
     "plan",
     "plan_arrays",
     "progress_bar",

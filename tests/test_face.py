@@ -20,7 +20,7 @@ def test_all_is_sorted_and_complete() -> None:
 def test_import_is_light() -> None:
     heavy = (
         "torch", "pydantic", "orjson", "fastapi", "viser", "uvicorn", "relguide_server",
-        "relguide.flying", "relguide.maps", "relguide.contract",
+        "relguide.flying", "relguide.maps", "relguide.contract", "relguide.pictures", "quickjs",
     )  # fmt: skip
     code = f"import relguide, sys; sys.exit(' '.join(m for m in {heavy} if m in sys.modules) or 0)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
@@ -53,6 +53,8 @@ def test_what_is_used_beside_plan_is_loaded_when_asked_for() -> None:
             "flying.tracks": ("RecordedTrack",),
             "flying.documents": ("FlightEnded", "PlanChanged", "PlanRefused", "Sample"),
             "contract.recorder": ("record", "replay"),
+            "pictures.flight": ("Flight",),
+            "pictures.picture": ("Picture", "picture"),
             "maps.isochrones": ("Grid", "Isochrones", "isochrones"),
         }
         assert set(relguide.__all__) <= set(dir(relguide)), "dir() leaves a name out"

@@ -57,7 +57,9 @@ def test_the_client_that_does_not_wait() -> None:
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
     listed = {arguments[0] for arguments in shown_commands()}
     planning, learning = {"plan", "check"}, {"dataset", "area", "train", "audit"}
-    assert listed == {"fly", "replay", "campaign", "serve", "warm-up"} | planning | learning
+    assert (
+        listed == {"fly", "replay", "picture", "campaign", "serve", "warm-up"} | planning | learning
+    )
     for command in listed:
         with pytest.raises(SystemExit) as end:
             main([command, "--help"])

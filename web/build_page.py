@@ -13,11 +13,18 @@ import sys
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from unpack_font import unpack_font
+
 NO_ANSWER = 300.0
 """How long fetching the page's packages may take [s]."""
 INPUTS = ("package.json", "package-lock.json", ".npmrc", "index.html", "vite.config.ts",
-          "tsconfig.json", "src", "public")  # fmt: skip
+          "tsconfig.json", "unpack_font.py", "src", "public")  # fmt: skip
 """What the page is made of, within `web/`."""
+BUILDS = ("production", "picture", "element")
+"""Vite's modes: the page first, then what lies beside it in `dist/embed`."""
+FONT = "node_modules/@fontsource/b612/files/b612-latin-400-normal.woff"
+"""The instrument's type, as pictures are lettered with it without a browser."""
 
 
 def build_page(root: Path) -> Path:
@@ -36,7 +43,9 @@ def build_page(root: Path) -> Path:
     started = time.monotonic()
     install_packages(web)
     print("Building the web page …", flush=True)
-    _node(["node_modules/vite/bin/vite.js", "build"], web)
+    for mode in BUILDS:
+        _node(["node_modules/vite/bin/vite.js", "build", "--mode", mode], web)
+    (page / "embed" / "b612.ttf").write_bytes(unpack_font((web / FONT).read_bytes()))
     stamp.write_text(wanted)
     print(f"The web page is built ({time.monotonic() - started:.0f} s).", flush=True)
     return page

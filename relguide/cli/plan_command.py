@@ -73,7 +73,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         type=_parse_include,
         default=(),
         help="alternatives: every other path to the slot and why it is not flown; optimality: how "
-        "the plan meets Pontryagin's conditions, with H and λ along it; or both, with a comma",
+        "the plan meets Pontryagin's conditions, with H and λ along it; flown: when it joins if an "
+        "aircraft flies it, and where; or some of them, with commas",
     )
     parser.add_argument(
         "--compare",
@@ -145,7 +146,7 @@ class AskedBeside(NamedTuple):
 
 
 def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool) -> int:
-    from relguide.contract.answers import answer, check_optimality
+    from relguide.contract.answers import answer, check_optimality, fly_plan
     from relguide.flying.cards import no_plan_card, plan_card
     from relguide.planning.plan import NoPlan, Plan
 
@@ -156,7 +157,12 @@ def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool)
         planner(situation)
     proving = prove_after(planner, asked.prove)
     if table:
-        from relguide.cli.plan_tables import print_no_plan, print_optimality, print_plan
+        from relguide.cli.plan_tables import (
+            print_flown,
+            print_no_plan,
+            print_optimality,
+            print_plan,
+        )
         from relguide.planning.acceptance import ask
         from relguide.planning.alternatives import alternatives
         from relguide.planning.deadline import end_of, left_until
@@ -169,6 +175,8 @@ def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool)
                 wanted, left = "alternatives" in asked.include, left_until(until)
                 others = alternatives(planned, deadline=left) if wanted else ()
                 print_plan(plan_card(planned, others), min_separation=situation.min_separation)
+                if "flown" in asked.include:
+                    print_flown(fly_plan(planned, proving, until))
                 if "optimality" in asked.include:
                     print_optimality(check_optimality(planned))
         return DONE if isinstance(planned, Plan) else FAILED

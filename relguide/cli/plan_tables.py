@@ -14,8 +14,10 @@ from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     BoundarySegment,
     EarlyAlternativeCard,
+    FlownCard,
     MissingAlternativeCard,
     NoPlanCard,
+    NotFlownCard,
     PathPoint,
     PathSegment,
     PlanCard,
@@ -94,6 +96,21 @@ def print_plan(card: PlanCard, *, min_separation: float) -> None:
     for other in card.alternatives:
         others.add_row(*_alternative(other))
     console.print(others)
+
+
+def print_flown(card: FlownCard | NotFlownCard) -> None:
+    """Print when an aircraft that flies a plan joins, and why then."""
+    console = Console(highlight=False)
+    match card:
+        case FlownCard():
+            console.print(
+                Text.assemble("Flown, it joins in ", (clock(card.join), "bold green"))
+                + f" by {card.word}, and comes within {miles(card.least)}. {card.reason}".rstrip()
+            )
+        case NotFlownCard():
+            console.print(Text("It is not flown", "yellow") + f": {card.reason}")
+        case _:
+            assert_never(card)
 
 
 def print_verdicts(found: Sequence[PlannerVerdict]) -> None:

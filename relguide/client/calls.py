@@ -25,7 +25,7 @@ JSON, LINES = "application/json", "application/x-ndjson"
 AT_A_TIME = 1000
 """Most situations in one request."""
 Include = Literal["alternatives", "optimality"]
-IncludeDrawn = Literal["alternatives", "optimality", "paths"]
+IncludeDrawn = Literal["alternatives", "optimality", "paths", "flown"]
 PlannerName = Literal["exact", "network"]
 
 

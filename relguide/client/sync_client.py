@@ -98,7 +98,7 @@ class Client:
         """Plan a situation that lies on the earth (latitudes in its body), as GeoJSON.
 
         The object has the features and the members of the plan. Arguments as `plan`, and `paths` in
-        `include` draws the other paths.
+        `include` draws the other paths; `flown` adds where the plan is flown, and when it joins.
         """
         call = calls.plan_geojson(asked, max_ms=max_ms, include=include, planner=planner)
         return self.ask(call)

@@ -2,30 +2,35 @@
 
 from collections.abc import Collection, Iterable
 from math import inf
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
-from relguide.contract.bodies import Anchor, path_to_wire, plan_to_wire
+from relguide.contract.bodies import Anchor, flown_to_wire, path_to_wire, plan_to_wire
 from relguide.contract.refusal import ContractError
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, optimality_check, other_path_cards, plan_card
 from relguide.planning.acceptance import ask
 from relguide.planning.deadline import end_of, left_until
 from relguide.planning.frames import LocalPlane
-from relguide.planning.plan import NoPlan, Plan, Planner
+from relguide.planning.plan import NoPlan, Plan, Planner, plan
 from relguide.planning.situation import Situation
 from relguide.units import Second
 
 if TYPE_CHECKING:
+    from relguide.flying.plan_documents import FlownCard, NotFlownCard
     from relguide.flying.verdicts import OptimalityCheck
     from relguide.planning.alternatives import AnyAlternative
 
-Include = Literal["alternatives", "paths", "optimality"]
+Include = Literal["alternatives", "paths", "optimality", "flown"]
 """What an answer contains only if asked for: the other paths to the slot and why each is not flown,
-the same to be drawn, and how the plan meets Pontryagin's conditions. They take longer than the
-plan."""
+the same to be drawn, how the plan meets Pontryagin's conditions, and the flight that guidance would
+make of it. They take longer than the plan."""
 Form = Literal["json", "geojson"]
 """How a plan is written: as it is; or as GeoJSON, whose object has the members of the plan beside
 its features."""
+INCLUDABLE: tuple[Include, ...] = get_args(Include)
+"""All of it, as it is named."""
+TO_FLY: Second = 0.03
+"""How long a flight ahead may plan at the least, however late it is [s]: most take 4 ms in all."""
 MOST_PATHS = 8
 """Most other paths that are given to be drawn, the fastest."""
 
@@ -36,19 +41,15 @@ def read_include(text: str) -> tuple[Include, ...]:
     Raises:
         ValueError: for an unknown word.
     """
-    chosen: list[Include] = []
-    for word in text.split(","):
-        match word.strip():
-            case "alternatives" | "paths" | "optimality" as known:
-                chosen.append(known)
-            case "":
-                pass
-            case other:
-                raise ValueError(
-                    "include must be alternatives, paths or optimality, or some of them with "
-                    f"commas, not {other}."
-                )
-    return tuple(chosen)
+    words = [word.strip() for word in text.split(",")]
+    for word in words:
+        if word not in ("", *INCLUDABLE):
+            *first, last = INCLUDABLE
+            raise ValueError(
+                f"include must be {', '.join(first)} or {last}, or some of them with commas, not "
+                f"{word}."
+            )
+    return tuple(known for word in words for known in INCLUDABLE if known == word)
 
 
 def answer(
@@ -79,18 +80,22 @@ def answer(
         _expect_placed(anchor)
     until = end_of(deadline)
     planned = ask(planner, situation, deadline=left_until(until)).plan
-    return answer_plan(planned, anchor, include=include, until=until, form=form)
+    return answer_plan(planned, anchor, planner, include=include, until=until, form=form)
 
 
 def answer_plan(
     planned: Plan | NoPlan,
     anchor: Anchor,
+    planner: Planner = plan,
     *,
     include: Collection[Include] = (),
     until: float = inf,
     form: Form = "json",
 ) -> dict[str, Any]:
-    """As `answer`, of what has been planned; alternatives end by then, of `end_of` [s]."""
+    """As `answer`, of what has been planned; what is included ends by then, of `end_of` [s].
+
+    A flight is planned by its planner, and has some milliseconds however late it is.
+    """
     match planned:
         case Plan():
             left = left_until(until)
@@ -105,6 +110,8 @@ def answer_plan(
                 del reply["alternatives"]
             if "optimality" in include:
                 reply["optimality"] |= to_wire(check_optimality(planned))
+            if "flown" in include:
+                reply["flown"] = flown_to_wire(fly_plan(planned, planner, until), anchor)
             if form == "geojson":
                 drawn = others if "paths" in include else ()
                 reply = _collect(_features(planned, drawn, anchor)) | reply
@@ -144,6 +151,15 @@ def _alternatives(plan: Plan, deadline: Second | None) -> "tuple[AnyAlternative,
     from relguide.planning.alternatives import alternatives  # which a plan alone need not load
 
     return alternatives(plan, deadline=deadline)
+
+
+def fly_plan(planned: Plan, planner: Planner, until: float) -> "FlownCard | NotFlownCard":
+    """The flight that guidance would make of a plan, planned by then, of `end_of` [s]."""
+    from relguide.flying.flown_plan import flown_card  # as above
+
+    left = left_until(until)
+    end = inf if left is None else end_of(max(left, TO_FLY))
+    return flown_card(planned, planner, until=end)
 
 
 def check_optimality(plan: Plan) -> "OptimalityCheck":

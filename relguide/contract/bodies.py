@@ -17,7 +17,13 @@ from relguide.contract.accepted import Accepted
 from relguide.contract.compass import compass, heading_of
 from relguide.contract.refusal import ContractError, Strict, parse
 from relguide.contract.wire import to_wire
-from relguide.flying.plan_documents import Direction, OtherPathCard, PlanCard
+from relguide.flying.plan_documents import (
+    Direction,
+    FlownCard,
+    NotFlownCard,
+    OtherPathCard,
+    PlanCard,
+)
 from relguide.planning import limits
 from relguide.planning.frames import LocalPlane
 from relguide.planning.situation import (
@@ -255,11 +261,24 @@ def path_to_wire(
     answer = to_wire(card)
     match anchor:
         case LocalPlane():
-            for segment in answer["segments"]:
-                segment["start"] = _point_to_wire(segment["start"], anchor)
-                segment["end"] = _point_to_wire(segment["end"], anchor)
+            _place_segments(answer, anchor)
         case Unanchored():
             pass
+    return answer
+
+
+def _place_segments(answer: dict[str, Any], plane: LocalPlane) -> None:
+    for segment in answer["segments"]:
+        segment["start"] = _point_to_wire(segment["start"], plane)
+        segment["end"] = _point_to_wire(segment["end"], plane)
+
+
+def flown_to_wire(card: FlownCard | NotFlownCard, anchor: Anchor) -> dict[str, Any]:
+    """The flight of a plan as a JSON object, its points as above."""
+    answer = to_wire(card)
+    if isinstance(card, FlownCard) and isinstance(anchor, LocalPlane):
+        answer["points"] = [_point_to_wire(point, anchor) for point in answer["points"]]
+        _place_segments(answer, anchor)
     return answer
 
 

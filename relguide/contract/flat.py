@@ -23,7 +23,7 @@ from relguide.contract.bodies import (
 from relguide.contract.bulk import Fields
 from relguide.contract.refusal import ContractError, loads
 from relguide.contract.wire import wire_fields
-from relguide.flying.plan_documents import NoPlanCard, PlanCard
+from relguide.flying.plan_documents import FlownCard, NoPlanCard, PlanCard
 from relguide.flying.verdicts import OptimalityCheck
 
 Kind = Literal["number", "whole", "text", "truth", "json"]
@@ -164,6 +164,8 @@ def answer_columns(fields: Fields, include: Collection[Include]) -> dict[str, Ki
             del columns["alternatives"]
         if "paths" in include:
             columns["others"] = "json"
+        if "flown" in include:
+            columns |= dict(_leaves(FlownCard, "flown."))
         if "optimality" in include:
             columns |= dict(_leaves(OptimalityCheck, "optimality."))
     return columns | dict(_leaves(NoPlanCard))

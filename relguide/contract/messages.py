@@ -41,7 +41,9 @@ from relguide.flying.documents import Document, Engagement, Mode
 from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     Direction,
+    FlownCard,
     NoPlanCard,
+    NotFlownCard,
     OptimalityCard,
     OtherPathCard,
     PathSegment,
@@ -87,6 +89,11 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
         members["others"] = (
             list[_json_type(OtherPathCard)],  # type: ignore[misc]
             Field(default_factory=list, description=drawn),
+        )
+        described = "The flight of it, with guidance engaged at once.\nIf asked for."
+        members["flown"] = (
+            _json_type(FlownCard | NotFlownCard),
+            Field(default=None, description=described, json_schema_extra=_no_default),
         )
     if {"x_m", "y_m"} <= members.keys():
         kind = members["x_m"][0]  # of a point, or columns of many

@@ -67,12 +67,17 @@ def replay(file: Path | str) -> Iterator[Document]:
         RecordingError: naming the first line that is not a document.
         OSError: if the file cannot be opened.
     """
+    return (document for document, _ in read_lines(file))
+
+
+def read_lines(file: Path | str) -> Iterator[tuple[Document, bytes]]:
+    """The documents of a recording, each with the line it is written in; raises as `replay`."""
     path = Path(file)
     with _open(path, "rb") as stream:
         lines = _lines(stream, path)
         _check_header(next(lines, b""), path)
         for number, line in enumerate(lines, start=2):
-            yield _document(line, f"{path}, line {number}")
+            yield _document(line, f"{path}, line {number}"), line
 
 
 def check_name(file: Path | str) -> None:
@@ -90,7 +95,7 @@ def _record(
 ) -> Iterator[Document]:
     with _open(path, "wb") as stream:
         stream.write(header_line())
-        for document, lines in _with_lines(documents, sample_rate):
+        for document, lines in written(documents, sample_rate):
             stream.write(lines)
             yield document
 
@@ -102,18 +107,18 @@ def recording_of(documents: Iterable[Document], *, sample_rate: float | None = 1
         documents: of a flight.
         sample_rate: as in `record` [Hz].
     """
-    lines = (lines for _, lines in _with_lines(documents, sample_rate))
+    lines = (lines for _, lines in written(documents, sample_rate))
     return header_line() + b"".join(lines)
 
 
-def header_line(version: int = VERSION) -> bytes:
-    """The first line of a recording."""
+def header_line(version: int = VERSION, **origin: str) -> bytes:
+    """The first line of a recording, and what else it says of where that comes from."""
     from pydantic_core import to_json
 
-    return to_json({"format": FORMAT, "version": version}) + b"\n"
+    return to_json({"format": FORMAT, "version": version, **origin}) + b"\n"
 
 
-def _with_lines(
+def written(
     documents: Iterable[Document], sample_rate: float | None
 ) -> Iterator[tuple[Document, bytes]]:
     """Each document, and the lines that a recording has of it: none, or one, or two at the end."""

@@ -39,7 +39,9 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
     from relguide.flying.documents import Document
     from relguide.flying.plan_documents import (
         AnyAlternativeCard,
+        FlownCard,
         NoPlanCard,
+        NotFlownCard,
         OtherPathCard,
         PathPoint,
         PlanCard,
@@ -52,6 +54,8 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
         | PathPoint
         | AnyAlternativeCard
         | OtherPathCard
+        | FlownCard
+        | NotFlownCard
         | PlannerVerdict
         | OptimalityCheck
         | RegularCheck

@@ -52,7 +52,7 @@ from relguide.flying.guidance.announcements import (
     UnableTo,
 )
 from relguide.flying.guidance.fan import Fan
-from relguide.flying.guidance.forecast import Forecast
+from relguide.flying.guidance.forecast import Forecast, rows_to_draw
 from relguide.flying.guidance.memory import Advice
 from relguide.flying.perception import CERTAIN, SURE, Spread
 from relguide.flying.plan_documents import PathPoint
@@ -63,16 +63,12 @@ from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
 from relguide.planning.alternatives import alternatives
 from relguide.planning.plan import Plan
 from relguide.planning.situation import Leader, Wind
-from relguide.units import DEG, Metre, Radian, Second
+from relguide.units import Metre, Second
 
 FINAL_LEG: Second = 1200.0
 """How much of the leader's endless final leg is shown [s]: as much as a pursuer needs at 100 km."""
 GHOSTS = 3
 """So many other paths are drawn beside a proposal."""
-BENT: Radian = 3.0 * DEG
-"""A forecast's points are no farther apart than this in heading: the chord strays by 4 m [rad]."""
-STRAIGHT_FOR = 30
-"""… nor than this in time [s]."""
 
 
 class PairNames(NamedTuple):
@@ -274,12 +270,7 @@ def forecast_document(
         spread: how uncertain is what it begins with.
     """
     rows = ahead.own[max(round(t - ahead.t), 0) :]
-    kept, last = [0], 0
-    for k in range(1, len(rows) - 1):
-        if abs(rows[k, 2] - rows[last, 2]) > BENT or k - last >= STRAIGHT_FOR:
-            kept.append(k)
-            last = k
-    kept.append(len(rows) - 1)
+    kept = rows_to_draw(rows)
     times, points = t + np.array(kept, dtype=float), rows[kept]
     least, at = ahead.least(t)
     own, leader = _point_at(ahead.own, ahead.t, at), _point_at(ahead.leader, ahead.t, at)

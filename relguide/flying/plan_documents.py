@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from relguide.planning.plan import Proof, Reason
-from relguide.units import Metre, Millisecond, Radian, Second
+from relguide.units import Metre, MetrePerSecond, Millisecond, Radian, Second
 
 Direction = Literal["left", "right"]
 Passes = Literal["behind", "ahead"]
@@ -244,6 +244,54 @@ class PlanCard:
     """How long planning took."""
     status: Literal["planned"] = "planned"
     """There is a plan."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlownPoint:
+    """A place along a path as an aircraft will fly it, over the ground."""
+
+    t: Second
+    """From the beginning of the path."""
+    x: Metre
+    """East."""
+    y: Metre
+    """North."""
+    heading: Radian
+    """Where the nose points."""
+    tas: MetrePerSecond
+    """True airspeed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlownCard:
+    """The flight of a plan's situation, guidance engaged at once: rolls and braking included."""
+
+    join: Second
+    """When it has joined, from the situation on."""
+    least: Metre
+    """How close it comes until then."""
+    at: Second
+    """When it is closest."""
+    word: str
+    """Of the path that guidance flies: it may be another than the plan's."""
+    reason: str
+    """Why it takes another time than the plan, in sentences; empty if it does not."""
+    segments: tuple[PathSegment, ...]
+    """What guidance plans to fly: straight until it can turn, and without rolls and braking."""
+    points: tuple[FlownPoint, ...]
+    """Where it goes, until it has joined: to be drawn with straight lines between them."""
+    status: Literal["flown"] = "flown"
+    """It joins."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NotFlownCard:
+    """A plan that no aircraft flies, and why."""
+
+    reason: str
+    """In a sentence."""
+    status: Literal["not_flown"] = "not_flown"
+    """It does not join, or is not begun."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -144,6 +144,14 @@ class Plan:
             f"     proof: {proof.proof}, no plan is faster than {proof.lower_bound:.1f} s)"
         )
 
+    def _repr_svg_(self) -> str:
+        """How notebooks show it: drawn, north up."""
+        from relguide.planning.drawing import plan_drawing  # most who plan draw nothing
+
+        return plan_drawing(
+            self.trajectory, self.situation, word=self.word, certificate=self.certificate
+        )
+
     @property
     def arrival(self) -> Arrival:
         """How its end meets eq. (7); computed anew each time, from the trajectory alone."""

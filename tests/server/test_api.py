@@ -189,7 +189,7 @@ def test_a_planner_may_be_asked_for(client: TestClient) -> None:
 @pytest.mark.parametrize("path", ["/api/v1/plans", "/api/v1/plans/batch"])
 def test_what_cannot_be_included_is_refused(client: TestClient, path: str) -> None:
     wrong = is_problem(client.post(f"{path}?include=wings", json=EXAMPLE), 422, path)
-    assert "include must be alternatives, paths or optimality" in wrong["detail"]
+    assert "include must be alternatives, paths, optimality or flown" in wrong["detail"]
     unknown = is_problem(client.post(f"{path}?optimality=true", json=EXAMPLE), 422, path)
     assert "include, max_ms, planner." in unknown["detail"]
 
@@ -321,8 +321,8 @@ def test_every_method_that_is_allowed_is_answered(client: TestClient) -> None:
         ("max_ms=", "max_ms", 'must be a number, not the text "".'),
         ("planner=fast", "planner", "must be 'exact' or 'network', not fast."),
         ("format=xml", "format", "must be 'json' or 'geojson', not xml."),
-        ("include=all", "include", "include must be alternatives, paths or optimality, or some "
-         "of them with commas, not all."),
+        ("include=all", "include", "include must be alternatives, paths, optimality or flown, or "
+         "some of them with commas, not all."),
     ],
 )  # fmt: skip
 def test_a_wrong_parameter_is_told_what_would_be_right(

@@ -10,6 +10,7 @@ import {
   readFlight,
   readRecord,
 } from "./api";
+import { fetchReference, readCompared, referencesIn, splitReference } from "./compare/opening";
 import { fly, followMode, layOut, mapFromFlight } from "./map/flying";
 import type { Actions, Recording, Session } from "./session";
 import type { FlightStore } from "./store/flight";
@@ -34,6 +35,8 @@ const FIRST_SCENARIO = "fig_6b";
 const RATE = { off: 1, engaged: 10 } as const;
 /** A flight that is younger was begun by this page [s]. */
 const BEGUN = 2;
+/** Two flights are shown first this long after the leader has begun to turn: they begin to differ [s]. */
+const TURNING = 6;
 /** A server that does not answer is asked again this often [ms]. */
 const ASK_AGAIN = 3000;
 
@@ -45,6 +48,8 @@ const ENGAGING: Record<Engagement, { doing: string; done: string }> = {
   engaged: { doing: "Engaging…", done: "Relative guidance is engaged." },
 };
 
+/** A flight that stands so early waits for its crew's orders: each lets it go on [s]. */
+const BEGINNING = 4;
 /** A refusal that comes so much later is about what somebody else commanded [ms]. */
 const LATEST = 3000;
 /** What is said to who commands a flight that is no more. */
@@ -77,6 +82,8 @@ export function createActions(
   let engagement: keyof typeof RATE = "off";
   /** When this page last gave a command [ms]. */
   let commanded = Number.NEGATIVE_INFINITY;
+  /** Whether a flight that went on for an acceptance stands again once that is taken. */
+  let standsAgain = false;
   /** Whether the page began with the map alone, so that nothing flies yet. */
   let isGrounded = false;
 
@@ -89,9 +96,22 @@ export function createActions(
       isGrounded = joined === null;
       if (isGrounded) return;
     }
+    isGrounded = false;
     lookAs(session, address);
+    const [first, other] = referencesIn(address);
+    if (first !== undefined && other !== undefined) {
+      await compare(first, other, readClockText(address.get("t") ?? ""));
+      return;
+    }
+    session.comparison.other.value = null;
+    if (first !== undefined) void compareWith(first);
     if (joined === null) {
       await begin(requestOf(address.get("scenario") ?? FIRST_SCENARIO));
+      return;
+    }
+    if (stream !== null && joined === session.status.value?.id) {
+      const t = readClockText(address.get("t") ?? "");
+      if (t !== null) own.moves.seek(t);
       return;
     }
     const answer = await readFlight(joined);
@@ -129,12 +149,12 @@ export function createActions(
   }
 
   /** Shows a recording in place of the flight; what is wrong with it is said, and all stays as it was. */
-  async function replay(file: Blob, about: Pick<Recording, "id" | "from">): Promise<void> {
+  async function replay(file: Blob, about: Pick<Recording, "id" | "from">): Promise<boolean> {
     say("sending", "Reading the recording…");
     const read = await readFile(file);
     if (read.kind === "refused") {
       say("refused", read.sentence);
-      return;
+      return false;
     }
     stream?.close();
     stream = null;
@@ -151,6 +171,54 @@ export function createActions(
     });
     visit(about.from === "record" ? about.id : null);
     say("done", `Recorded: ${title}.`);
+    return true;
+  }
+
+  /** Shows two flights beside each other, at flight time `t` [s], or else when the leader turns. */
+  async function compare(first: string, other: string, t: number | null): Promise<void> {
+    const since = performance.now();
+    const wait = () => {
+      const seconds = Math.round((performance.now() - since) / 1000);
+      say("sending", `Flying both to their end… ${seconds === 0 ? "" : `${seconds} s`}`);
+    };
+    wait();
+    const waiting = setInterval(wait, 1000);
+    const [shown, beside] = await Promise.all([fetchReference(first), readCompared(other)]);
+    clearInterval(waiting);
+    const refused = [shown, beside].find((each) => each.kind === "refused");
+    if (shown.kind === "refused" || beside.kind === "refused") {
+      say("refused", refused?.kind === "refused" ? refused.sentence : "");
+      if (session.status.value === null) await begin(requestOf(FIRST_SCENARIO));
+      return;
+    }
+    const [kind, id] = splitReference(first);
+    if (!(await replay(shown.value, { id, from: kind === "record" ? "record" : "scenario" })))
+      return;
+    session.comparison.other.value = beside.compared;
+    noteComparison(kind === "record" ? [other] : [first, other]);
+    const turn = session.history().events.find(({ kind }) => kind === "leader_changed");
+    if (t !== null || turn !== undefined) own.moves.seek(t ?? (turn?.t_s ?? 0) + TURNING);
+    say("done", "Both are shown: one solid, the other dashed.");
+  }
+
+  async function compareWith(source: string | File): Promise<void> {
+    say("sending", "Reading the other flight…");
+    const read = await readCompared(source);
+    if (read.kind === "refused") {
+      say("refused", read.sentence);
+      return;
+    }
+    session.comparison.other.value = read.compared;
+    noteComparison(read.compared.reference === null ? [] : [read.compared.reference]);
+    say("done", `Beside it: ${read.compared.title}, dashed.`);
+  }
+
+  /** Notes in the address what is compared. */
+  function noteComparison(references: readonly string[]): void {
+    const address = new URL(location.href);
+    if (references.length === 0) address.searchParams.delete("compare");
+    else address.searchParams.set("compare", references.join(","));
+    history.replaceState(history.state, "", address);
   }
 
   /** Notes in the address which flight is shown: going back shows the one before. */
@@ -170,6 +238,13 @@ export function createActions(
     const last = session.flight.read.value.engagement;
     if (last === null || last.engagement !== last.previous) return;
     if (performance.now() - commanded < LATEST) untracked(() => say("refused", last.message));
+  });
+  // What stands takes orders when it goes on: once a path is accepted it stands again, to be read.
+  effect(() => {
+    if (session.flight.moment.value.engagement?.engagement !== "armed" || !standsAgain) return;
+    standsAgain = false;
+    const { doing, done } = ENGAGING.armed;
+    untracked(() => void command({ command: "pause" }, doing, done));
   });
   followMode(session);
   // Whoever leaves the map without a flight sees the one that a page begins with.
@@ -197,7 +272,8 @@ export function createActions(
     if (answer.kind === "done") {
       show(answer.value);
       flies();
-      say("done", `New flight: ${answer.value.title}.`);
+      const waits = wanted.paused === true ? " It waits: accept what is proposed, or play." : "";
+      say("done", `New flight: ${answer.value.title}.${waits}`);
     } else if (answer.retryAfter !== undefined) {
       session.outage.value = null;
       say("sending", `${answer.sentence} It will start by itself.`);
@@ -261,6 +337,11 @@ export function createActions(
     session.feedback.value = { kind, text };
   }
 
+  function standsAtStart(): boolean {
+    const { clock, moment } = session.flight;
+    return clock.value.paused && moment.value.t < BEGINNING;
+  }
+
   async function end(): Promise<void> {
     const status = session.status.value;
     if (status === null) return;
@@ -317,6 +398,10 @@ export function createActions(
       void command({ command: "set_engagement", engagement }, doing, done).then(() => {
         // what it refuses at once brings no document
         if (session.feedback.value.kind === "refused") session.flight.isSent.value = false;
+        else if (standsAtStart()) {
+          standsAgain = engagement === "armed";
+          void command({ command: "play" }, doing, done);
+        }
       });
     },
     ownHeading(heading) {
@@ -367,10 +452,16 @@ export function createActions(
     ...own.moves,
     openRecord(id) {
       void readRecord(id).then((answer) => {
-        if (answer.kind === "done") return replay(answer.value, { id, from: "record" });
-        say("refused", answer.sentence);
+        if (answer.kind === "done") void replay(answer.value, { id, from: "record" });
+        else say("refused", answer.sentence);
       });
     },
     openFile: (file) => void replay(file, { id: file.name, from: "file" }),
+    compare: (first, other) => void compare(first, other, null),
+    compareWith: (other) => void compareWith(other),
+    endComparison() {
+      session.comparison.other.value = null;
+      noteComparison([]);
+    },
   };
 }

@@ -60,12 +60,12 @@ export function commandFlight(id: string, command: Command): Promise<Answer<Flig
   return request("POST", `${ROOT}/flights/${encodeURIComponent(id)}/commands`, command);
 }
 
-/** A plan with the other paths to the slot, those that are drawn included; within `most` [ms]. */
+/** A plan with its flight and the other paths to the slot, those that are drawn included; within `most` [ms]. */
 export function planSituation(
   situation: SituationBody,
   most: number,
 ): Promise<Answer<PlanAnswer & { readonly others?: readonly OtherPathCard[] }>> {
-  const query = `include=alternatives,paths&max_ms=${most}`;
+  const query = `include=alternatives,paths,flown&max_ms=${most}`;
   return request("POST", `${ROOT}/plans?${query}`, situation);
 }
 
@@ -122,9 +122,18 @@ export function listRecords(
   return request("GET", `${ROOT}/records/flights?limit=${most}`);
 }
 
-/** A flight on record as a recording, as a file would hold it. */
-export async function readRecord(id: string): Promise<Answer<Blob>> {
-  const path = `${ROOT}/records/flights/${encodeURIComponent(id)}/export?format=jsonl`;
+/** The forms in which a flight on record can be had. */
+export const EXPORT_FORMS = ["jsonl", "csv", "parquet", "geojson", "czml"] as const;
+export type ExportForm = (typeof EXPORT_FORMS)[number];
+
+/** A flight on record as a file. `place`: where on the earth its x = y = 0 is, for a flight that has none. */
+export async function readRecord(
+  id: string,
+  form: ExportForm = "jsonl",
+  place: { readonly lat: number; readonly lon: number } | null = null,
+): Promise<Answer<Blob>> {
+  const where = place === null ? "" : `&lat_deg=${place.lat}&lon_deg=${place.lon}`;
+  const path = `${ROOT}/records/flights/${encodeURIComponent(id)}/export?format=${form}${where}`;
   try {
     const response = await fetch(path, { signal: AbortSignal.timeout(RECORD_PATIENCE) });
     if (response.ok) return { kind: "done", value: await response.blob() };

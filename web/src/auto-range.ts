@@ -28,7 +28,9 @@ export function followRange(
     }
     untracked(() => {
       const picture = shown.picture.value;
-      const { pose, places, t, designated } = picture;
+      const { pose, t, designated } = picture;
+      const ghost = shown.ghost.value;
+      const places = ghost === null ? picture.places : [...picture.places, ghost.pursuer];
       if (pose === null || places.length === 0) return;
       const key = `${flight.id.value} ${mode} ${designated}`;
       const passed = t - last.t;

@@ -2,6 +2,7 @@
 
 import { type Signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
+import { FIGURES } from "./compare/opening";
 import { late } from "./late";
 import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
@@ -17,7 +18,6 @@ import { Header } from "./panels/header";
 import { LeaderControls } from "./panels/leader-controls";
 import { OutageNotice } from "./panels/outage";
 import { PlanNumbers } from "./panels/plan";
-import { PlannersPanel } from "./panels/planners";
 import { ScenarioPicker } from "./panels/scenario-picker";
 import { set } from "./parts";
 import { Scene } from "./scene/scene";
@@ -29,10 +29,19 @@ const NARROW = "(max-width: 1279px)";
 /** Where all stand in one column. */
 const SMALL = "(max-width: 999px)";
 
+const PlannersPanel = late(
+  async () => (await import("./panels/planners")).PlannersPanel,
+  "The planners are on their way.",
+);
 const MapBench = late(async () => (await import("./map/bench")).MapBench, "The map is on its way.");
 const PlanMap = late(async () => (await import("./map/map")).PlanMap, "The map is on its way.");
-const HowTo = late(async () => (await import("./map/how-to")).HowTo, "");
+const UnderMap = late(async () => (await import("./map/under-map")).UnderMap, "");
 const Help = late(async () => (await import("./panels/help")).Help, "");
+const Charts = late(
+  async () => (await import("./charts/charts")).Charts,
+  "The charts are on their way.",
+);
+const ComparePanel = late(async () => (await import("./compare/panel")).ComparePanel, "");
 const Records = late(async () => (await import("./panels/records")).Records, "");
 
 export function Cockpit(props: { session: Session; actions: Actions }) {
@@ -44,6 +53,9 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
     <>
       <Header session={session}>
         <ScenarioPicker session={session} actions={actions} />
+        <button type="button" onClick={() => actions.compare(...FIGURES)}>
+          Fig. 6a beside 6b
+        </button>
         <FirstStart readiness={session.firstStart} />
       </Header>
       <main class={session.sceneMaximised.value ? "maximised" : ""}>
@@ -66,7 +78,11 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
           {!isMap && <Captions session={session} />}
           <div class="below">
             {small.value && !isMap && <Engage session={session} actions={actions} />}
-            {isMap ? <HowTo /> : <Events session={session} />}
+            {isMap ? (
+              <UnderMap session={session} actions={actions} isSmall={small.value} />
+            ) : (
+              <Events session={session} />
+            )}
             {narrow.value && !isMap && <Aircraft session={session} actions={actions} />}
           </div>
         </section>
@@ -75,10 +91,19 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
         ) : (
           <section class="workstation" aria-label="Scene and panels">
             <div class="beside">
-              <Scene session={session} actions={actions} />
+              {session.chartsOpen.value ? (
+                <Charts session={session} actions={actions} />
+              ) : (
+                <Scene session={session} actions={actions} />
+              )}
               <OutageNotice session={session} actions={actions} />
             </div>
             <div class="panels">
+              {session.comparison.other.value !== null && (
+                <div class="column comparing">
+                  <ComparePanel session={session} actions={actions} />
+                </div>
+              )}
               <div class="column commands">
                 <FlightControls session={session} actions={actions} />
                 <LeaderControls

@@ -1,6 +1,6 @@
 /** The keys of the page. A key typed into a field, or with Ctrl, Alt or Meta, is not ours. */
 
-import { type Editor, halfExtent, pan, showAll, zoom } from "./map/editor";
+import { type Editor, halfExtent, pan, showAll, step, zoom } from "./map/editor";
 import { set } from "./parts";
 import { type Actions, type Session, stepRange } from "./session";
 import { speedOf } from "./store/flight";
@@ -40,6 +40,7 @@ const KEYS: Record<string, (session: Session, actions: Actions) => Act> = {
   c: (_, actions) => () => actions.engage("armed"),
   e: (_, actions) => () => actions.engage("engaged"),
   x: (_, actions) => () => actions.engage("off"),
+  g: ({ chartsOpen }) => set(chartsOpen, !chartsOpen.value),
   m: ({ sceneMaximised }) => set(sceneMaximised, !sceneMaximised.value),
   "?": ({ helpOpen }) => set(helpOpen, !helpOpen.value),
   Escape: ({ helpOpen, recordsOpen, sceneMaximised }) => {
@@ -74,6 +75,16 @@ export function keyAction(key: string, session: Session, actions: Actions, isShi
     return way === 0 ? null : () => actions.step(way * (isShifted ? LONG_STEP : STEP));
   }
   return KEYS[isLetter ? key.toLowerCase() : key]?.(session, actions) ?? null;
+}
+
+/** Ctrl-Z takes back what was done on the map; Ctrl-Shift-Z and Ctrl-Y do it again. A field has its own. */
+export function stepAction(event: KeyboardEvent, session: Session): Act {
+  if (!isMap(session) || event.altKey || !(event.ctrlKey || event.metaKey)) return null;
+  const { target } = event;
+  if (target instanceof HTMLElement && target.matches("input, select, textarea")) return null;
+  const key = event.key.toLowerCase();
+  if (key === "z") return () => step(session.map, event.shiftKey ? 1 : -1);
+  return key === "y" && !event.shiftKey ? () => step(session.map, 1) : null;
 }
 
 /** Whether a key press belongs to what has the focus: typing in a field, or pressing a button. */

@@ -11,12 +11,13 @@ import "./styles/controls.css";
 import "./styles/numbers.css";
 import "./styles/map.css";
 import "./styles/small.css";
+import "./nd/nd.css";
 import { render } from "preact";
 import { createActions } from "./actions";
 import { followRange } from "./auto-range";
 import { Cockpit } from "./cockpit";
 import { followFirstStart } from "./first-start";
-import { isTaken, keyAction } from "./keyboard";
+import { isTaken, keyAction, stepAction } from "./keyboard";
 import { followAddress } from "./map/address";
 import { followMap } from "./map/asking";
 import { drawPictures } from "./pace";
@@ -46,8 +47,9 @@ if (place === null) throw new Error("The page has no place for the cockpit.");
 render(<Cockpit session={session} actions={actions} />, place);
 
 addEventListener("keydown", (event) => {
-  if (isTaken(event)) return;
-  const act = keyAction(event.key, session, actions, event.shiftKey);
+  const act =
+    stepAction(event, session) ??
+    (isTaken(event) ? null : keyAction(event.key, session, actions, event.shiftKey));
   if (act === null) return;
   event.preventDefault();
   act();

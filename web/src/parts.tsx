@@ -35,7 +35,7 @@ export function AlarmLine({ numbers }: { numbers: Numbers }) {
   if (alarm === null) return null;
   return (
     <p class={`alarm ${alarm.level}`}>
-      <b>{alarm.text}</b> {separation} NM, minimum {minSeparation} NM
+      <b>{alarm.text}</b> {separation} NM, MIN {minSeparation}
     </p>
   );
 }
@@ -110,6 +110,7 @@ const ICONS = {
     "M3 9v6h4l5 5V4L7 9zM15 9.400 16.400 8 19 10.600 21.600 8 23 9.400 20.400 12 23 14.600 21.600 16 19 13.400 16.400 16 15 14.600 17.600 12z",
   records:
     "M12 4a8 8 0 1 1-7.700 5.800l1.900.600A6 6 0 1 0 8 7.600L10 9.500H4v-6l2.500 2.600A8 8 0 0 1 12 4zM11 8h2v4l3 2-1 1.700-4-2.700z",
+  charts: "M3 3h2v16h16v2H3zM7 14l4-6 4 4 5-7 1.6 1.2L15.300 15 11.200 10.900 8.700 15.200z",
   help: "M12 2a10 10 0 1 0 0 20 10 10 0 0 0 0-20zm-1 15h2v2h-2zm1-12a4 4 0 0 0-4 4h2a2 2 0 1 1 3.4 1.4C12 11.8 11 12.6 11 15h2c0-1.6.7-2.200 1.800-3.300A4 4 0 0 0 12 5z",
 } as const;
 

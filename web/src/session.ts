@@ -2,6 +2,7 @@
 
 import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
+import { type Comparison, createComparison } from "./compare/compared";
 import { createEditor, type Editor } from "./map/editor";
 import { createPlanners, type Planners } from "./planners";
 import { createHistory, type History } from "./store/history";
@@ -38,8 +39,8 @@ export type Outage =
 export interface Recording {
   readonly id: string;
   readonly title: string;
-  /** A flight on record of the service, or a file of the user's own. */
-  readonly from: "record" | "file";
+  /** A flight on record of the service, a file of the user's own, or a scenario flown at once. */
+  readonly from: "record" | "file" | "scenario";
 }
 
 export interface Session {
@@ -69,6 +70,10 @@ export interface Session {
   readonly map: Editor;
   /** Four planners side by side. */
   readonly planners: Planners;
+  /** The flight that is seen beside the shown one, if there is one. */
+  readonly comparison: Comparison;
+  /** Whether the flight is drawn over time in the scene's place. */
+  readonly chartsOpen: Signal<boolean>;
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
@@ -125,6 +130,11 @@ export interface Actions {
   /** Shows a flight on record, or a recording of the user's own. */
   openRecord(id: string): void;
   openFile(file: File): void;
+  /** Shows two flights beside each other, each named as in the address. */
+  compare(first: string, other: string): void;
+  /** Shows another flight, or a recording of the user's own, beside the one that is shown. */
+  compareWith(other: string | File): void;
+  endComparison(): void;
 }
 
 export function createSession(
@@ -133,6 +143,7 @@ export function createSession(
   history: () => History = createHistory,
 ): Session {
   const planners = createPlanners();
+  const comparison = createComparison(flight, history);
   return {
     flight,
     history,
@@ -140,7 +151,9 @@ export function createSession(
     replayRate: signal(1),
     timeRefusal: signal(""),
     recordsOpen: signal(false),
-    shown: createShown(flight, undefined, planners.rivals),
+    shown: createShown(flight, comparison.ghost, planners.rivals),
+    comparison,
+    chartsOpen: signal(false),
     scenarios: signal([]),
     status: signal(null),
     feedback: signal({ kind: "none" }),
@@ -148,7 +161,7 @@ export function createSession(
     ndMode: signal("ARC"),
     ndRange: signal(40),
     ndAuto: signal(true),
-    map: createEditor(),
+    map: createEditor(comparison.ghost),
     planners,
     sceneMaximised: signal(false),
     helpOpen: signal(false),

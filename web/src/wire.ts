@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-da36a4ee428e";
+export const PROTOCOL = "relguide-e40f07ef4709";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -466,6 +466,44 @@ export interface FlightStatus {
   version: string;
 }
 
+/** The flight of a plan's situation, guidance engaged at once: rolls and braking included. */
+export interface FlownCard {
+  /** It joins. */
+  status: "flown";
+  /** When it has joined, from the situation on. */
+  join_s: number;
+  /** How close it comes until then. */
+  least_m: number;
+  /** When it is closest. */
+  at_s: number;
+  /** Of the path that guidance flies: it may be another than the plan's. */
+  word: string;
+  /** Why it takes another time than the plan, in sentences; empty if it does not. */
+  reason: string;
+  /** What guidance plans to fly: straight until it can turn, and without rolls and braking. */
+  segments: PathSegment[];
+  /** Where it goes, until it has joined: to be drawn with straight lines between them. */
+  points: FlownPoint[];
+}
+
+/** A place along a path as an aircraft will fly it, over the ground. */
+export interface FlownPoint {
+  /** From the beginning of the path. */
+  t_s: number;
+  /** East. */
+  x_m: number;
+  /** North. */
+  y_m: number;
+  /** Where the nose points. */
+  heading_deg: number;
+  /** True airspeed. */
+  tas_mps: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number;
+}
+
 /** A situation to be flown. */
 export interface FlownSituationBody {
   pursuer: LocalPursuer | GeodeticPursuer;
@@ -734,6 +772,14 @@ export interface NoPlanCard {
   lower_bound_s: number;
 }
 
+/** A plan that no aircraft flies, and why. */
+export interface NotFlownCard {
+  /** It does not join, or is not begun. */
+  status: "not_flown";
+  /** In a sentence. */
+  reason: string;
+}
+
 /** What is proved of a plan's time; and, if asked for, how it meets Pontryagin's conditions. */
 export interface OptimalityCard {
   /**
@@ -835,6 +881,11 @@ export interface PlanCard {
    * If asked for.
    */
   others?: OtherPathCard[];
+  /**
+   * The flight of it, with guidance engaged at once.
+   * If asked for.
+   */
+  flown?: FlownCard | NotFlownCard;
 }
 
 /** A new plan is flown. */

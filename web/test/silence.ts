@@ -28,5 +28,8 @@ export function silentActions(): Actions {
     setLoop: vi.fn(),
     openRecord: vi.fn(),
     openFile: vi.fn(),
+    compare: vi.fn(),
+    compareWith: vi.fn(),
+    endComparison: vi.fn(),
   };
 }

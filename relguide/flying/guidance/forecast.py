@@ -17,10 +17,14 @@ from relguide.kernels.flight.ahead import AT, LEAST, NEVER, RIGHT, fly_ahead
 from relguide.kernels.flight.flight_records import Body, Drift
 from relguide.kernels.flight.guide import Course, Progress
 from relguide.kernels.flight.path import lay_path
-from relguide.units import Metre, Second
+from relguide.units import DEG, Metre, Radian, Second
 
 STEPS = 4
 """Of a second, in a forecast: within 10 m of 20 a second."""
+BENT: Radian = 3.0 * DEG
+"""Rows that draw a path are no farther apart in heading: their chord strays by 4 m [rad]."""
+STRAIGHT_FOR = 30
+"""… nor than this in time [s]."""
 FOLLOWED: Second = 150.0
 """How long a forecast goes on once it has joined [s]."""
 NO_COURSE = Course(
@@ -138,6 +142,22 @@ def forecast(
     )  # fmt: skip
     suffix = np.minimum.accumulate(account[::-1, LEAST])[::-1]
     return Forecast(belief.t, own, leader, account, suffix, join_time)
+
+
+def rows_to_draw(rows: FloatArray) -> list[int]:
+    """Which rows draw a path flown ahead: of its turns point by point, of its straights the ends.
+
+    Args:
+        rows: a second apart. shape (n, 7), as `Body`
+    """
+    headings: list[float] = rows[:, 2].tolist()
+    kept, last = [0], 0
+    for k in range(1, len(headings) - 1):
+        if abs(headings[k] - headings[last]) > BENT or k - last >= STRAIGHT_FOR:
+            kept.append(k)
+            last = k
+    kept.append(len(headings) - 1)
+    return kept
 
 
 def _expected_program(belief: Belief, turns_on: bool) -> tuple[FloatArray, int, float]:

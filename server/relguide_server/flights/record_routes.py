@@ -53,6 +53,7 @@ MEDIA = {
     "jsonl": "application/x-ndjson",
     "csv": "text/csv",
     "geojson": "application/geo+json",
+    "czml": "application/json",
     "parquet": "application/vnd.apache.parquet",
 }
 """Media types of the forms of an export."""
@@ -260,43 +261,50 @@ async def export_flight(
     flight_id: RecordedId,
     records: RecordsOf,
     form: Annotated[
-        Literal["jsonl", "csv", "geojson", "parquet"],
+        Literal["jsonl", "csv", "geojson", "czml", "parquet"],
         Query(
             alias="format",
             description="`jsonl`: all documents, as `relguide replay` reads them. `csv`, "
-            "`parquet`: samples, a row for each aircraft and second. `geojson`: the tracks.",
+            "`parquet`: samples, a row for each aircraft and second. `geojson`: the tracks. "
+            "`czml`: the aircraft as they move, for Cesium.",
         ),
     ] = "jsonl",
     lat_deg: Annotated[
         float | None,
         Query(ge=-90.0, le=90.0, allow_inf_nan=False, description="Where x = y = 0 is, for "
-              "`geojson` of a flight whose situation had no latitudes."),
+              "`geojson` and `czml` of a flight whose situation had no latitudes."),
     ] = None,
     lon_deg: Annotated[
         float | None,
         Query(ge=-180.0, le=180.0, allow_inf_nan=False, description="Longitude of the same."),
     ] = None,
 ) -> Response:  # fmt: skip
-    """What is on record of it now."""
+    """What is on record of it now, and when it began, its id, and the version that flew it."""
     from relguide_server.records import queries
 
     about = await _find(flight_id, records)
-    if form != "geojson" and (lat_deg, lon_deg) != (None, None):
+    origin = _origin(about)
+    if form not in ("geojson", "czml") and (lat_deg, lon_deg) != (None, None):
         raise Refusal(422, f"lat_deg and lon_deg have no meaning for {form}: leave them out.")
     headers = {"Content-Disposition": f'attachment; filename="flight-{about["id"]}.{form}"'}
     match form:
         case "jsonl" | "csv":
-            lines = _parts(records, flight_id, about["form"], form)
+            lines = _parts(records, origin, about["form"], form)
             return StreamingResponse(lines, media_type=MEDIA[form], headers=headers)
         case "geojson":
             plane = _plane(about["request"], lat_deg, lon_deg)
             body = await records.read(
-                lambda s: exports.as_geojson(plane, queries.each_chunk(s, flight_id))
+                lambda s: exports.as_geojson(origin, plane, queries.each_chunk(s, flight_id))
+            )
+        case "czml":
+            plane, title = _plane(about["request"], lat_deg, lon_deg), about["title"]
+            body = await records.read(
+                lambda s: exports.as_czml(origin, title, plane, queries.each_chunk(s, flight_id))
             )
         case "parquet":
             try:
                 body = await records.read(
-                    lambda s: exports.as_parquet(queries.each_chunk(s, flight_id))
+                    lambda s: exports.as_parquet(origin, queries.each_chunk(s, flight_id))
                 )
             except MissingExtra as error:
                 raise Refusal(501, str(error)) from None
@@ -340,15 +348,23 @@ def _unknown(flight_id: str) -> Refusal:
     )
 
 
+def _origin(about: dict[str, Any]) -> exports.Origin:
+    return exports.Origin(
+        flight_id=about["id"], started_at=about["started_at"], relguide_version=about["version"]
+    )
+
+
 async def _parts(
-    records: RecordsService, flight_id: str, form: int, kind: str
+    records: RecordsService, origin: exports.Origin, form: int, kind: str
 ) -> AsyncIterator[bytes]:
     """A file, a chunk at a time."""
     from relguide_server.records import queries
 
     def begin(store: "Store") -> Iterator[bytes]:
-        chunks = queries.each_chunk(store, flight_id)
-        return exports.as_recording(form, chunks) if kind == "jsonl" else exports.as_csv(chunks)
+        chunks = queries.each_chunk(store, origin.flight_id)
+        if kind == "csv":
+            return exports.as_csv(origin, chunks)
+        return exports.as_recording(origin, form, chunks)
 
     parts = await records.read(begin)
     while (part := await records.read(lambda _: next(parts, None))) is not None:

@@ -52,6 +52,8 @@ class _File:
     media_type: str
     tag: str
     cache: str
+    for_all: bool
+    """Whether pages of other sites may load it."""
 
 
 class Page:
@@ -111,11 +113,14 @@ def _read(path: Path) -> _File:
         tag=f'"{sha256(body).hexdigest()[:20]}"',
         # Vite writes the hash of the content into the names of what it puts into assets/.
         cache=FOR_EVER if path.parent.name == "assets" else "no-cache",
+        for_all=path.parent.name == "embed",
     )
 
 
 def _answer(file: _File, request: Headers) -> Response:
     headers = {"ETag": file.tag, "Cache-Control": file.cache, "Vary": "Accept-Encoding"}
+    if file.for_all:
+        headers["Access-Control-Allow-Origin"] = "*"
     if file.tag in request.get("if-none-match", ""):
         return Response(status_code=304, headers=headers)
     if file.packed and "gzip" in request.get("accept-encoding", ""):

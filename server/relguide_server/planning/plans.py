@@ -9,7 +9,7 @@ from fastapi import APIRouter, Query, Request
 from pydantic import BaseModel, ConfigDict, Field, RootModel, create_model
 from starlette.responses import Response, StreamingResponse
 
-from relguide.contract.answers import Form, read_include
+from relguide.contract.answers import INCLUDABLE, Form, read_include
 from relguide.contract.bodies import NamedSituationBody, SituationBody
 from relguide.contract.bulk import refused_line
 from relguide.contract.messages import PlanAnswer, PlannerComparison, model_of
@@ -49,7 +49,7 @@ BUDGET_MS, LEAST_MS, MOST_MS = 250.0, 1.0, 10_000.0
 """How long planning a situation may take if the request does not say, and the range of what it may
 say."""
 
-_INCLUDED = " *(alternatives|paths|optimality)? *"
+_INCLUDED = f" *({'|'.join(INCLUDABLE)})? *"
 INCLUDES = f"^{_INCLUDED}(,{_INCLUDED})*$"
 """What `read_include` takes, for the document."""
 
@@ -113,8 +113,10 @@ class BatchQuery(BaseModel):
         "paths to the slot, and why each is not flown. `paths`: the same as `others`, with the "
         "segments that draw them. `optimality`: how the plan meets "
         "Pontryagin's conditions, with H and the costates along it; where the path slides "
-        "along the minimum separation that takes seconds more than `max_ms`.",
-        examples=["alternatives,optimality"],
+        "along the minimum separation that takes seconds more than `max_ms`. `flown`: the flight "
+        "that guidance makes of it, engaged at once: rolls, a berth beside the minimum "
+        "separation and braking included.",
+        examples=["alternatives,optimality", "flown"],
         json_schema_extra={"pattern": INCLUDES},
     )
     max_ms: float = Field(

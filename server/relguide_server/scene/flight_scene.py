@@ -11,7 +11,7 @@ from math import cos, inf, sin
 from typing import NamedTuple, assert_never
 
 import numpy as np
-from viser import LineSegmentsHandle, ViserServer
+from viser import ViserServer
 
 from relguide.flying.aircraft_documents import (
     AircraftCard,
@@ -40,7 +40,6 @@ from relguide.flying.documents import (
     SeparationLost,
     Unable,
 )
-from relguide.flying.plan_documents import PathPoint
 from relguide.planning.frames import LocalPlane
 from relguide.units import NM, Second
 from relguide_server.scene import paint as paint
@@ -53,6 +52,7 @@ from relguide_server.scene.aircraft import (
     place_of,
 )
 from relguide_server.scene.camera import Array, Cameras, Sights
+from relguide_server.scene.closest_pair import ClosestPair, closest_ahead
 from relguide_server.scene.extrapolation import carry, onward
 from relguide_server.scene.ground import draw_ground
 from relguide_server.scene.minimum_ring import GONE, MinimumRing, leader_colour
@@ -74,8 +74,6 @@ DECLARED = (2.4, 0.8, 0.4, 0.8)
 """The leader's route as it declared it: dash-dot."""
 GUESSED = (0.4, 1.6)
 """Where it goes if it flies straight on: dots."""
-HALO = 1.0
-"""Radius of the rings that mark both aircraft when they are closest [scene units]."""
 
 
 class _Cast(NamedTuple):
@@ -84,14 +82,6 @@ class _Cast(NamedTuple):
     link: LinkCard
     pursuer: AircraftCard
     leader: AircraftCard
-
-
-class _Closest(NamedTuple):
-    """When the two are closest, and where."""
-
-    t: Second
-    pursuer: PathPoint
-    leader: PathPoint
 
 
 class _Pair(NamedTuple):
@@ -118,11 +108,11 @@ class FlightScene:
         self._plan: PlanChanged | None = None
         self._drawn_from = 0.0
         self._was_flown = True
-        self._closest: _Closest | None = None
         self._pair: _Pair | None = None
         self._cast: _Cast | None = None
         self._figures: dict[str, AircraftFigure] = {}
-        self._route: LineSegmentsHandle | None = None
+        self._route: LeaderRoute | None = None
+        self._is_routed = False
         self._ahead: Array = np.empty((0, 3))
         self._length = 0.0
         server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
@@ -132,6 +122,7 @@ class FlightScene:
         self._world = server.scene.add_frame("/world", show_axes=False)
         self._gate = SlotGate(server.scene)
         self._minimum = MinimumRing(server.scene)
+        self._closest = ClosestPair(server.scene)
         self._cameras = Cameras(server)
 
     def draw(self, documents: Sequence[Document]) -> None:
@@ -159,7 +150,8 @@ class FlightScene:
                 self._start(document)
             case LeaderRoute():
                 if (document.expected_by, document.ident) == (link.pursuer, link.leader):
-                    self._draw_route(document)
+                    self._route = document
+                    self._draw_route(document.t)
             case PlanChanged():
                 if document.ident == link.pursuer:
                     self._plan = document
@@ -279,42 +271,15 @@ class FlightScene:
             return t + self._cast.link.slot_distance / max(1.0, leader.ground_speed)
         return t + guidance.time_to_go if guidance.time_to_go > 0.0 else inf
 
-    def _draw_closest(self, t: Second, guidance: GuidanceSample) -> None:
-        """Where both are when they are closest, while that is to come and is not the join."""
-        found = self._closest_ahead(t, guidance)
-        if found == self._closest:
+    def _draw_route(self, t: Second) -> None:
+        """What is to come of the leader's route: dash-dot as declared, dots where it is a guess."""
+        if self._route is None:
             return
-        self._closest = found
-        if found is None:
-            for name in ("/world/closest", "/world/closest_min"):
-                self._scene.remove_by_name(name)
-            return
-        own = np.array((found.pursuer.x / KM, found.pursuer.y / KM, self._own_height))
-        leader = np.array((found.leader.x / KM, found.leader.y / KM, self._height))
-        marks = [shapes.ring(HALO) + own, shapes.ring(HALO) + leader, np.array([[own, leader]])]
-        lines(self._scene, "/world/closest", np.concatenate(marks), paint.LEADER, 1.5)
-        then = shapes.dashes(shapes.circle(self._radius) + leader, GUESSED)
-        lines(self._scene, "/world/closest_min", then, paint.LEADER, 1.2)
-
-    def _closest_ahead(self, t: Second, guidance: GuidanceSample) -> _Closest | None:
-        proposal, forecast = self._proposal, self._forecast
-        if proposal is not None and guidance.engagement in ("designated", "armed"):
-            closest = proposal.plan.separation.at
-            at, join = proposal.t + closest, proposal.t + proposal.plan.time_to_converge
-            own, leader = proposal.pursuer_at_closest, proposal.leader_at_closest
-        elif forecast is not None and guidance.time_to_go > 0.0:
-            own, leader = forecast.pursuer_at_closest, forecast.leader_at_closest
-            at, join = own.t, t + guidance.time_to_go
-        else:
-            return None
-        return _Closest(at, own, leader) if t < at < join - 1.0 else None
-
-    def _draw_route(self, route: LeaderRoute) -> None:
-        points = shapes.path_points(route.segments, self._wind, self._height)
-        # The style carries the state: dash-dot is a declared intent, dots are a guess.
-        pattern = DECLARED if route.intent_known else GUESSED
+        points = shapes.path_points(self._route.segments, self._wind, self._height, since=t)
+        pattern = DECLARED if self._route.intent_known else GUESSED
         dashed = shapes.dashes(points, pattern)
-        self._route = lines(self._scene, "/world/route", dashed, paint.LEADER, 2.0)
+        drawn = lines(self._scene, "/world/route", dashed, paint.LEADER, 2.0)
+        drawn.visible = self._is_routed
 
     def _sample(self, t: Second, pair: _Pair, cast: _Cast) -> None:
         guidance = pair.guidance
@@ -323,11 +288,15 @@ class FlightScene:
         self._pair = pair
         self._figures["pursuer"].mark(pair.pursuer, t)
         self._figures["leader"].mark(pair.leader, t)
-        if t - self._drawn_from >= FLOWN_PART or self._is_flown() != self._was_flown:
-            self._was_flown = self._is_flown()
+        is_flown, is_routed = self._is_flown(), _is_routed(guidance)
+        is_changed = (is_flown, is_routed) != (self._was_flown, self._is_routed)
+        self._was_flown, self._is_routed = is_flown, is_routed
+        if t - self._drawn_from >= FLOWN_PART or is_changed:
+            self._draw_route(t)
             self._draw_forecast(t)
             self._draw_plan(t)
-        self._draw_closest(t, guidance)
+        closest = closest_ahead(t, guidance, self._proposal, self._forecast)
+        self._closest.draw(closest, self._own_height, self._height, self._radius)
         enlarged = enlargement(guidance.separation)
         self._figures["pursuer"].show(paint.PURSUER, enlarged)
         self._figures["leader"].show(leader_colour(guidance, cast.link.min_separation), enlarged)
@@ -335,8 +304,6 @@ class FlightScene:
         self._minimum.draw(guidance, cast.link.min_separation)
         self._length = LENGTH / KM * enlarged
         self._gate.draw(guidance, self._height, self._length)
-        if self._route is not None:
-            self._route.visible = guidance.engagement != "off" and not is_silent(guidance)
         self._ahead = self._path_ahead(t, guidance)
         self._place(pair)
         self._frame(pair)
@@ -382,6 +349,11 @@ class FlightScene:
             "pursuer": AircraftFigure(scene, "pursuer", paint.PURSUER, pair.pursuer),
             "leader": AircraftFigure(scene, "leader", paint.LEADER, pair.leader),
         }
+
+
+def _is_routed(guidance: GuidanceSample) -> bool:
+    """Whether the leader's route is shown: it is designated, and heard of."""
+    return guidance.engagement != "off" and not is_silent(guidance)
 
 
 def _cast(started: FlightStarted) -> _Cast:

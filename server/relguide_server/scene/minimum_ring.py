@@ -55,7 +55,7 @@ class MinimumRing:
             radius / KM,
             2.0 * WALL,
             colour,
-            opacity=0.28 if colour == paint.ALERT else 0.1,
+            opacity=0.18 if colour == paint.ALERT else 0.1,
             radial_segments=72,
             side="double",
             cast_shadow=False,

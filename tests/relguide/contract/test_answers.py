@@ -12,7 +12,7 @@ from relguide.contract.bodies import situation_from_json
 from relguide.contract.messages import PlanAnswer
 from relguide.planning.plan import Plan
 from relguide.units import DEG
-from tests.bodies import BODY, change
+from tests.bodies import BODY, change, on_earth
 from tests.liars import LIARS, LIED_ABOUT, Liar
 
 
@@ -80,7 +80,7 @@ def test_the_other_paths_come_with_their_segments_on_request() -> None:
 def test_what_to_include_is_read_from_words_with_commas() -> None:
     assert read_include("") == ()
     assert read_include("alternatives, optimality") == ("alternatives", "optimality")
-    with pytest.raises(ValueError, match="include must be alternatives, paths or optimality"):
+    with pytest.raises(ValueError, match="alternatives, paths, optimality or flown"):
         read_include("alternatives,proof")
 
 
@@ -193,3 +193,50 @@ def test_what_may_not_be_flown_is_not_answered(liar: Liar) -> None:
     reply, exact = (answer(LIED_ABOUT, anchor, planner) for planner in (liar, plan))
     assert reply | {"compute_ms": 0.0} == exact | {"compute_ms": 0.0}
     assert reply["planner"] == "exact"
+
+
+# --- what is flown ------------------------------------------------------------------------------
+
+
+def test_the_flight_of_a_plan_has_the_contracts_names_and_changes_nothing_else() -> None:
+    situation, anchor = situation_from_json(BODY)
+    asked = answer(situation, anchor, plan, include=["flown"])
+    TypeAdapter(PlanAnswer).validate_python(asked)
+    flown = asked.pop("flown")
+    assert list(flown) == [
+        "status",
+        "join_s",
+        "least_m",
+        "at_s",
+        "word",
+        "reason",
+        "segments",
+        "points",
+    ]
+    assert flown["join_s"] > asked["time_to_converge_s"]
+    assert {tuple(point) for point in flown["points"]} == {
+        ("t_s", "x_m", "y_m", "heading_deg", "tas_mps")
+    }
+    reply = answer(situation, anchor, plan)
+    asked["compute_ms"] = reply["compute_ms"]
+    assert json.dumps(asked) == json.dumps(reply)
+
+
+def test_a_plan_that_no_aircraft_flies_says_why() -> None:
+    slow = change("pursuer.tas_mps", 60.0)
+    slow["leader"]["tas_mps"] = 50.0
+    situation, anchor = situation_from_json(slow)
+    reply = answer(situation, anchor, plan, include=["flown"])
+    TypeAdapter(PlanAnswer).validate_python(reply)
+    assert set(reply["flown"]) == {"status", "reason"}
+    unplanned = situation_from_json(change("leader.tas_mps", 300))
+    assert "flown" not in answer(*unplanned, plan, include=["flown"])
+
+
+def test_the_points_of_a_flight_lie_on_the_earth_if_the_situation_does() -> None:
+    situation, anchor = situation_from_json(on_earth((49.4, 1.4), (49.0, 2.0)))
+    reply = answer(situation, anchor, plan, include=["flown"])
+    TypeAdapter(PlanAnswer).validate_python(reply)
+    first = reply["flown"]["points"][0]
+    assert (first["lat_deg"], first["lon_deg"]) == pytest.approx((49.4, 1.4), abs=1e-9)
+    assert first["heading_deg"] == pytest.approx(90.0, abs=1e-6)

@@ -8,8 +8,8 @@ import pytest
 from relguide.flying.documents import (
     ForecastChanged,
 )
-from relguide.flying.guidance.forecast import NEVER, Forecast
-from relguide.flying.logbook import BENT, STRAIGHT_FOR, PairNames, forecast_document
+from relguide.flying.guidance.forecast import BENT, NEVER, STRAIGHT_FOR, Forecast
+from relguide.flying.logbook import PairNames, forecast_document
 from relguide.flying.perception import SURE, Spread
 from relguide.units import DEG
 

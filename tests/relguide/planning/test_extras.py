@@ -10,8 +10,17 @@ import pytest
 from relguide.planning.extras import EXTRAS, MissingExtra, add_command, need
 
 PROJECT = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())["project"]
+IMPORTED_AS = {"quickjs_ng": "quickjs"}
+"""Packages that are imported by another name."""
+
+
+def _imported(requirement: str) -> str:
+    name = re.split(r"[\[=><]", requirement)[0].replace("-", "_")
+    return IMPORTED_AS.get(name, name)
+
+
 BROUGHT = {
-    extra: {re.split(r"[\[=><]", line)[0].replace("-", "_") for line in lines}
+    extra: {_imported(line) for line in lines}
     for extra, lines in PROJECT["optional-dependencies"].items()
 }
 

@@ -36,6 +36,19 @@ def test_index_is_always_asked_for_anew_and_assets_never(dist: Path) -> None:
     assert "javascript" in asset.headers["content-type"]
 
 
+def test_what_is_made_for_other_pages_may_be_loaded_by_them(dist: Path) -> None:
+    (dist / "embed").mkdir()
+    (dist / "embed" / "relguide-nd.js").write_text("let a = 1;\n" * 500)
+    client = client_of(dist)
+    element = client.get("/embed/relguide-nd.js")
+    assert element.headers["access-control-allow-origin"] == "*"
+    assert element.headers["cache-control"] == "no-cache"
+    assert "javascript" in element.headers["content-type"]
+    again = client.get("/embed/relguide-nd.js", headers={"If-None-Match": element.headers["etag"]})
+    assert (again.status_code, again.content) == (304, b"")
+    assert "access-control-allow-origin" not in client.get("/").headers
+
+
 def test_unchanged_files_are_not_sent_again(dist: Path) -> None:
     client = client_of(dist)
     tag = client.get("/").headers["etag"]

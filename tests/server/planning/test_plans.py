@@ -110,6 +110,18 @@ def test_a_body_that_comes_later_is_answered_all_the_same() -> None:
         assert came.startswith(b"HTTP/1.1 200"), (pieces, pause)
 
 
+def test_the_flight_of_a_plan_comes_on_request_quickly() -> None:
+    with TestClient(ideal_app()) as client:
+        plain = client.post(PATH, json=EXAMPLE).json()
+        client.post(f"{PATH}?include=flown", json=EXAMPLE)  # kernels are loaded
+        began = time.perf_counter()
+        asked = client.post(f"{PATH}?include=flown", json=EXAMPLE).json()
+        assert time.perf_counter() - began < 0.5
+    flown = asked.pop("flown")
+    assert flown["join_s"] > plain["time_to_converge_s"]
+    assert {**asked, "compute_ms": 0} == {**plain, "compute_ms": 0}
+
+
 def test_planners_are_compared_side_by_side() -> None:
     with TestClient(ideal_app()) as client:
         reply = client.post(f"{PATH}/compare", json=UNLIMITED)

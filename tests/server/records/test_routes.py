@@ -13,7 +13,7 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 from relguide_server.app import create_app
-from relguide_server.flights.record_routes import _parts
+from relguide_server.flights.record_routes import _origin, _parts
 from relguide_server.planning.plans import EXAMPLE
 from relguide_server.records.service import records_service
 from relguide_server.settings import ServiceSettings
@@ -186,11 +186,25 @@ def test_exports_hold_every_sample(client: TestClient, tmp_path: Path) -> None:
     table = pq.read_table(io.BytesIO(client.get(f"{path}?format=parquet").content)).to_pylist()
     assert [row["x_m"] for row in table] == [float(row["x_m"]) for row in rows]
     assert table[0]["joined"] is False
+    about = record_of(client, flight_id)
+    origin = {
+        "flight_id": flight_id,
+        "started_at": about["started_at"],
+        "relguide_version": about["version"],
+    }
+    assert json.loads(file.read_text().splitlines()[0]).items() >= origin.items()
+    for row in (rows[0], rows[-1], table[0], table[-1]):
+        assert row.items() >= origin.items()
     refused = client.get(f"{path}?format=geojson")
     assert refused.status_code == 422
     assert "lat_deg" in refused.json()["detail"]
     tracks = client.get(f"{path}?format=geojson&lat_deg=48&lon_deg=2").json()
+    assert tracks.items() >= origin.items()
     assert [len(f["geometry"]["coordinates"]) for f in tracks["features"]] == [31, 31]
+    packets = client.get(f"{path}?format=czml&lat_deg=48&lon_deg=2").json()
+    assert packets[0]["properties"] == origin
+    assert [len(p["position"]["cartographicDegrees"]) for p in packets[1:]] == [124, 124]
+    assert client.get(f"{path}?format=czml").status_code == 422
     leader = tracks["features"][1]["geometry"]["coordinates"][0]
     assert leader[:2] == pytest.approx([2.0, 48.0])
     cut = client.get(f"{path}?format=geojson&lat_deg=48&lon_deg=179.99").json()["features"][1]
@@ -243,7 +257,9 @@ def test_what_is_replayed_or_exported_is_whole_though_it_is_forgotten_meanwhile(
 
 async def exported(client: TestClient, flight_id: str) -> bytes:
     """A recording that is removed once its first part has been exported."""
-    parts = _parts(client.app.state.records, flight_id, VERSION, "jsonl")
+    parts = _parts(
+        client.app.state.records, _origin(record_of(client, flight_id)), VERSION, "jsonl"
+    )
     first = await anext(parts)
     assert client.delete(f"/api/v1/records/flights/{flight_id}").status_code == 204
     return first + b"".join([part async for part in parts])

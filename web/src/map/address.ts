@@ -2,7 +2,8 @@
 
 import { effect } from "@preact/signals";
 import type { Session } from "../session";
-import { clearAddress, writeAddress } from "./situation";
+import { clearAddress, writeAddress } from "./link";
+import type { Situation } from "./situation";
 
 /** Browsers take so many changes of the address and no more: it follows when the hand rests [ms]. */
 const REST = 300;
@@ -17,14 +18,25 @@ export function followAddress({ ndMode, map }: Pick<Session, "ndMode" | "map">):
     if (!isShown && !isThere) return;
     timer = setTimeout(() => {
       isThere = isShown;
-      const address = new URL(location.href);
-      clearAddress(address);
-      address.searchParams.delete("plan");
-      if (isShown) {
-        address.searchParams.set("plan", "");
-        writeAddress(address, situation);
-      }
-      history.replaceState(null, "", address);
+      history.replaceState(null, "", addressOf(isShown ? situation : null));
     }, REST);
   });
+}
+
+/** This page with a situation on its map, or without the map. */
+function addressOf(situation: Situation | null): URL {
+  const address = new URL(location.href);
+  clearAddress(address);
+  address.searchParams.delete("plan");
+  if (situation !== null) {
+    address.searchParams.set("plan", "");
+    writeAddress(address, situation);
+  }
+  return address;
+}
+
+/** Leaves the map behind as it is: the browser's Back leads to it, and not away from the page. */
+export function rememberMap(situation: Situation): void {
+  history.replaceState(null, "", addressOf(situation));
+  history.pushState(null, "", addressOf(null));
 }

@@ -9,10 +9,10 @@ import type { Session } from "../session";
 import { inPageUnits } from "../units";
 import type { AreaRequest } from "../wire";
 import { type Editor, halfExtent, showAll } from "./editor";
-import { bodyOf, type Situation, settle } from "./situation";
+import { BOUNDS, bodyOf, clamp, type Situation, settle } from "./situation";
 import type { Thumb } from "./thumbs";
 
-/** An answer to what is no more on the map is shown so long at most [ms]. */
+/** So long after a question what is shown still passes for its answer; then it is dimmed [ms]. */
 const LATE = 150;
 /** A service that does not answer is asked again [ms]. */
 const ASK_AGAIN = 3000;
@@ -37,7 +37,7 @@ export function followMap(session: Pick<Session, "ndMode" | "map" | "firstStart"
       return takePlan(map, situation, answer);
     },
     () => {
-      map.answered.value = null;
+      map.isLate.value = true;
     },
   );
   effect(() => {
@@ -144,6 +144,7 @@ function takePlan(
   situation: Situation,
   answer: Awaited<ReturnType<typeof planSituation>>,
 ): number {
+  map.isLate.value = false;
   if (answer.kind === "done") {
     map.refusal.value = "";
     map.answered.value = { situation, answer: answer.value };
@@ -192,12 +193,31 @@ function areaQuestion(map: Editor): string {
   });
   const { x_m, y_m } = map.centre.value;
   const half = halfExtent(map.range.value);
+  const [east, north] = [within(x_m, half), within(y_m, half)];
+  if (Math.min(east.length, north.length) < SMALLEST_AREA) return "";
   const asked: AreaRequest = {
     situation: body,
-    x_m: Math.round(x_m),
-    y_m: Math.round(y_m),
-    width_m: Math.round(2 * half),
-    height_m: Math.round(2 * half),
+    x_m: east.middle,
+    y_m: north.middle,
+    width_m: east.length,
+    height_m: north.length,
   };
   return JSON.stringify(asked);
+}
+
+/** A narrower area is not drawn [m]. */
+const SMALLEST_AREA = 2_000;
+
+/** The part of an interval that lies within the bounds of what is planned, in even metres. */
+function within(middle: number, half: number): { middle: number; length: number } {
+  const [from, to] = [clamp(middle - half, BOUNDS.position), clamp(middle + half, BOUNDS.position)];
+  const reach = Math.floor((to - from) / 2);
+  return { middle: Math.ceil(from) + reach, length: 2 * reach };
+}
+
+/** Whether a part of what is seen lies beyond what is planned, so that no area is drawn there. */
+export function isAreaCut(map: Editor): boolean {
+  const half = halfExtent(map.range.value);
+  const { x_m, y_m } = map.centre.value;
+  return Math.max(Math.abs(x_m), Math.abs(y_m)) + half > BOUNDS.position[1];
 }

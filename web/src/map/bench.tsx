@@ -6,21 +6,22 @@ import type { Actions, Session } from "../session";
 import { SituationForm } from "./form";
 import { Gallery } from "./gallery-panel";
 import { TakeAlong } from "./take-along";
-
-const IDEAL =
-  "Flown, it takes some seconds more: to roll into each turn, and to slow down at its end.";
+import { twoTimes } from "./two-times";
 
 export function MapBench({ session, actions }: { session: Session; actions: Actions }) {
   const { map } = session;
   return (
-    <section class="workstation map-bench" aria-label="Situation and plan">
+    <section
+      class={`workstation map-bench ${map.isLate.value ? "is-late" : ""}`}
+      aria-label="Situation and plan"
+    >
       <Gallery session={session} />
       <div class="panels">
         <div class="column">
           <SituationForm map={map} />
         </div>
         <div class="column numbers">
-          <PlanNumbers session={map.reading} remark={IDEAL} />
+          <PlanNumbers session={map.reading} {...twoTimes(map.reading.answered.value)} />
         </div>
         <div class="column lists">
           <TakeAlong session={session} actions={actions} />

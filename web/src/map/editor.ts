@@ -9,6 +9,7 @@ import type { AreaAnswer } from "../wire";
 import { FIRST, type Situation, settle } from "./situation";
 import { throttled } from "./throttle";
 import { createThumbs, type Thumb } from "./thumbs";
+import { createSteps, keepStep, type Steps, takeStep } from "./undo";
 import { type Answered, showWhatIf } from "./what-if";
 
 /** Ranges of the map [NM]: from its middle to its ring. */
@@ -34,6 +35,10 @@ export interface Editor {
   readonly situation: Signal<Situation>;
   /** The answer to it, or to what it was a moment ago; null while there is none. */
   readonly answered: Signal<Answered | null>;
+  /** Whether what is shown answers an earlier situation, and the answer to this one is late. */
+  readonly isLate: Signal<boolean>;
+  /** What can be undone and done again. */
+  readonly steps: Steps;
   /** Why the service plans nothing for it; empty if it does. */
   readonly refusal: Signal<string>;
   /** What is to be known of how the map began; empty if nothing. */
@@ -56,12 +61,13 @@ export interface Editor {
   /** The same to be read, beside the map: it changes five times a second. */
   readonly reading: {
     readonly situation: ReadonlySignal<Situation>;
+    readonly answered: ReadonlySignal<Answered | null>;
     readonly flight: Flight;
     readonly shown: Shown;
   };
 }
 
-export function createEditor(): Editor {
+export function createEditor(ghost?: Shown["ghost"]): Editor {
   const [flight, read] = [emptyFlight(), emptyFlight()];
   const situation = signal(FIRST);
   const answered = signal<Answered | null>(null);
@@ -71,6 +77,8 @@ export function createEditor(): Editor {
   const editor: Editor = {
     situation,
     answered,
+    isLate: signal(false),
+    steps: createSteps(),
     refusal: signal(""),
     notice: signal(""),
     area: signal(null),
@@ -81,9 +89,10 @@ export function createEditor(): Editor {
     thumbs: createThumbs(),
     isBegun: signal(false),
     flight,
-    shown: createShown(flight),
+    shown: createShown(flight, ghost),
     reading: {
       situation: computed(() => slow.value.situation),
+      answered: computed(() => slow.value.answered),
       flight: read,
       shown: createShown(read),
     },
@@ -96,6 +105,7 @@ export function createEditor(): Editor {
 /** Puts another situation on the map and brings it into sight. */
 export function putSituation(editor: Editor, situation: Situation): void {
   batch(() => {
+    if (editor.isBegun.value) keepStep(editor.steps, editor.situation.value, {});
     editor.situation.value = settle(situation);
     editor.answered.value = null;
     editor.isToFit.value = true;
@@ -105,9 +115,38 @@ export function putSituation(editor: Editor, situation: Situation): void {
   showAll(editor);
 }
 
-/** Changes the situation under the hand. */
-export function edit(editor: Editor, change: (situation: Situation) => Situation): void {
-  editor.situation.value = settle(change(editor.situation.value));
+/** Changes the situation; what the same hand does is one step, to be undone as one. */
+export function edit(
+  editor: Editor,
+  change: (situation: Situation) => Situation,
+  hand: unknown = {},
+): void {
+  const before = editor.situation.value;
+  const after = settle(change(before));
+  if (isSame(before, after)) return;
+  batch(() => {
+    keepStep(editor.steps, before, hand);
+    editor.notice.value = "";
+    editor.situation.value = after;
+  });
+}
+
+/** One step back (−1) or on again (+1); what is then out of sight is brought into it. */
+export function step(editor: Editor, way: -1 | 1): void {
+  const next = takeStep(editor.steps, editor.situation.value, way);
+  if (next === null) return;
+  editor.situation.value = next;
+  const { x_m, y_m } = editor.centre.value;
+  const half = halfExtent(editor.range.value);
+  const isSeen = (place: Place) =>
+    Math.abs(place.x_m - x_m) < half && Math.abs(place.y_m - y_m) < half;
+  if (isSeen(next.pursuer) && isSeen(next.leader)) return;
+  editor.isToFit.value = true;
+  showAll(editor);
+}
+
+export function isSame(one: Situation, other: Situation): boolean {
+  return JSON.stringify(one) === JSON.stringify(other);
 }
 
 /** The smallest range, round the middle of them, that shows both aircraft, the slot and the path. */

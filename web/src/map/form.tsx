@@ -4,29 +4,29 @@ import { Choice, Panel } from "../parts";
 import { KT, NM } from "../units";
 import type { IntentPiece, TurnPiece } from "../wire";
 import { type Editor, edit } from "./editor";
-import { Field } from "./field";
+import { Field, type FieldProps } from "./field";
 import { BOUNDS, MOST_PIECES, type Situation } from "./situation";
 
 /** A number of the situation: where it may lie, and what typing it makes of its part. */
-interface Numbered<Part> {
-  readonly label: string;
-  readonly short: string;
-  readonly unit: string;
-  readonly value: number;
-  /** An angle has none: 400° is 040°. */
-  readonly bounds?: readonly [number, number];
-  readonly decimals?: number;
-  readonly step?: number;
+interface Numbered<Part> extends Omit<FieldProps, "change"> {
   readonly part: (typed: number) => Part;
 }
 
-function Fields<Part>(props: { numbers: readonly Numbered<Part>[]; change: (part: Part) => void }) {
+function Fields<Part>(props: {
+  numbers: readonly Numbered<Part>[];
+  change: (part: Part, hand: unknown) => void;
+}) {
   return props.numbers.map(({ part, ...number }) => (
-    <Field key={number.label} {...number} change={(typed) => props.change(part(typed))} />
+    <Field
+      key={number.label}
+      {...number}
+      change={(typed, hand) => props.change(part(typed), hand)}
+    />
   ));
 }
 
 const TENTHS = { unit: "NM", decimals: 1 } as const;
+const HEADINGS = [0, 360] as const;
 const PLACES = [-539, 539] as const;
 const SPEEDS = [Math.round(BOUNDS.tas[0] / KT), Math.round(BOUNDS.tas[1] / KT)] as const;
 const WINDS = [0, Math.floor(BOUNDS.wind[1] / KT)] as const;
@@ -45,7 +45,7 @@ export function SituationForm({ map }: { map: Editor }) {
         <legend>Spacing and wind</legend>
         <Fields
           numbers={spacingAndWind(map.reading.situation.value)}
-          change={(part) => edit(map, (now) => ({ ...now, ...part }))}
+          change={(part, hand) => edit(map, (now) => ({ ...now, ...part }), hand)}
         />
       </fieldset>
     </Panel>
@@ -63,6 +63,7 @@ function spacingAndWind(situation: Situation): Numbered<Partial<Situation>>[] {
       step: 0.1,
       value: slot_distance_m / NM,
       bounds: [tenth(min_separation_m), DISTANCE],
+      limit: "D is no less than MIN",
       part: (miles) => ({ slot_distance_m: miles * NM }),
     },
     {
@@ -72,6 +73,7 @@ function spacingAndWind(situation: Situation): Numbered<Partial<Situation>>[] {
       step: 0.1,
       value: min_separation_m / NM,
       bounds: [0, tenth(slot_distance_m)],
+      limit: "MIN is no more than D",
       part: (miles) => ({ min_separation_m: Math.min(miles * NM, slot_distance_m) }),
     },
     {
@@ -79,6 +81,7 @@ function spacingAndWind(situation: Situation): Numbered<Partial<Situation>>[] {
       short: "From",
       unit: "°",
       value: wind.from_deg,
+      bounds: HEADINGS,
       part: (from) => ({ wind: { ...wind, from_deg: from } }),
     },
     {
@@ -103,7 +106,9 @@ function AircraftFields({ map, who }: { map: Editor; who: Who }) {
         numbers={
           "max_bank_deg" in aircraft ? [...numbers, bankOf(name, aircraft.max_bank_deg)] : numbers
         }
-        change={(part) => edit(map, (now) => ({ ...now, [who]: { ...now[who], ...part } }))}
+        change={(part, hand) =>
+          edit(map, (now) => ({ ...now, [who]: { ...now[who], ...part } }), hand)
+        }
       />
     </fieldset>
   );
@@ -137,6 +142,7 @@ function placeAndSpeed(
       short: "HDG",
       unit: "°",
       value: heading_deg,
+      bounds: HEADINGS,
       part: (heading) => ({ heading_deg: heading }),
     },
     {
@@ -164,8 +170,12 @@ function bankOf(name: string, bank: number): Numbered<Partial<Situation["pursuer
 /** What the leader has declared, piece by piece; what follows the last is flown for ever. */
 function IntentFields({ map }: { map: Editor }) {
   const { intent, heading_deg } = map.reading.situation.value.leader;
-  const change = (next: (pieces: IntentPiece[]) => IntentPiece[]) =>
-    edit(map, (now) => ({ ...now, leader: { ...now.leader, intent: next(now.leader.intent) } }));
+  const change = (next: (pieces: IntentPiece[]) => IntentPiece[], hand: unknown = {}) =>
+    edit(
+      map,
+      (now) => ({ ...now, leader: { ...now.leader, intent: next(now.leader.intent) } }),
+      hand,
+    );
   const turn: IntentPiece = {
     turn_to_heading_deg: (Math.round(heading_deg) + 45) % 360,
     direction: "right",
@@ -181,7 +191,7 @@ function IntentFields({ map }: { map: Editor }) {
             <Piece
               piece={piece}
               number={i + 1}
-              change={(next) => change((pieces) => pieces.with(i, next))}
+              change={(next, hand) => change((pieces) => pieces.with(i, next), hand)}
             />
             <button
               type="button"
@@ -219,7 +229,7 @@ function IntentFields({ map }: { map: Editor }) {
 function Piece(props: {
   piece: IntentPiece;
   number: number;
-  change: (piece: IntentPiece) => void;
+  change: (piece: IntentPiece, hand?: unknown) => void;
 }) {
   const { piece, number, change } = props;
   const name = `Piece ${number}`;
@@ -234,7 +244,10 @@ function Piece(props: {
         text={(side) => (side === "left" ? "L" : "R")}
         choose={(direction) => change({ ...piece, direction })}
       />
-      <Fields numbers={turnNumbers(name, piece)} change={(part) => change({ ...piece, ...part })} />
+      <Fields
+        numbers={turnNumbers(name, piece)}
+        change={(part, hand) => change({ ...piece, ...part }, hand)}
+      />
     </>
   );
 }
@@ -258,6 +271,7 @@ function turnNumbers(name: string, turn: TurnPiece): Numbered<Partial<TurnPiece>
       short: "to",
       unit: "°",
       value: turn.turn_to_heading_deg,
+      bounds: HEADINGS,
       part: (heading) => ({ turn_to_heading_deg: heading }),
     },
     { ...bankOf(name, turn.bank_deg), short: "at", part: (bank) => ({ bank_deg: bank }) },

@@ -2,12 +2,14 @@
 
 import type { Place, Point, View } from "../nd/view";
 import { type Editor, edit, pan, zoom } from "./editor";
-import { dragHandle, HANDLES, type HandleName, handlePoint, keyHandle } from "./handles";
+import { dragHandle, type HandleName, handlePoint, handlesOf, keyHandle } from "./handles";
 
 /** Two fingers step to the next range when they have moved apart, or together, by so much. */
 const PINCH = 1.3;
 /** A handle is held from so far [px]. */
 const REACH = 26;
+/** Between two presses of a key that are two steps [ms]. */
+const PAUSE = 1000;
 /** So much of the wheel is one step. */
 const NOTCH = 60;
 
@@ -23,6 +25,8 @@ export function followGestures(glass: SVGSVGElement, map: Editor, view: View): (
   let held: Held | null = null;
   let apart = 0;
   let wheel = 0;
+  /** Keys on one grip that follow each other at once are one step. */
+  let pressed: { name: HandleName | null; at: number } = { name: null, at: 0 };
 
   const pointOf = (event: MouseEvent): Point => {
     const box = glass.getBoundingClientRect();
@@ -48,7 +52,7 @@ export function followGestures(glass: SVGSVGElement, map: Editor, view: View): (
       const at = handlePoint(name, map.situation.peek(), view.layout.peek(), middle());
       return Math.hypot(at.x - point.x, at.y - point.y);
     };
-    const [first] = [...HANDLES].sort((a, b) => apart(a) - apart(b));
+    const [first] = [...handlesOf(map.situation.peek())].sort((a, b) => apart(a) - apart(b));
     return first !== undefined && apart(first) <= REACH ? first : null;
   };
 
@@ -93,7 +97,7 @@ export function followGestures(glass: SVGSVGElement, map: Editor, view: View): (
       return;
     }
     const to = { x: point.x + offset.x, y: point.y + offset.y };
-    edit(map, (situation) => dragHandle(name, situation, placeOf(to), to));
+    edit(map, (situation) => dragHandle(name, situation, placeOf(to), to), held);
   };
 
   const pinch = () => {
@@ -125,7 +129,10 @@ export function followGestures(glass: SVGSVGElement, map: Editor, view: View): (
     if (next === null) return;
     event.preventDefault();
     event.stopPropagation();
-    edit(map, () => next);
+    if (pressed.name !== grip || event.timeStamp - pressed.at > PAUSE)
+      pressed = { name: grip, at: 0 };
+    pressed.at = event.timeStamp;
+    edit(map, () => next, pressed);
   };
 
   const listeners = [

@@ -5,7 +5,9 @@ import type { LayerProps } from "../nd/layer";
 import { ink } from "../nd/style";
 import { type Point, placeAt, project, round } from "../nd/view";
 import type { Editor } from "./editor";
-import { HANDLES, type HandleName, handlePoint, sayHandle } from "./handles";
+import { type HandleName, handlePoint, handlesOf } from "./handles";
+import { sayHandle } from "./say-handle";
+import { firstTurn } from "./turn-handles";
 
 /** What may be touched: 24 px of the page and more, however small the glass. */
 const TOUCH = 26;
@@ -16,18 +18,27 @@ const COLOURS = {
   slot: "selected",
   leader: "leader",
   "leader-heading": "leader",
+  turn: "leader",
+  "turn-heading": "leader",
   own: "ownship",
   "own-heading": "ownship",
   wind: "value",
 } as const satisfies Record<HandleName, string>;
+/** What the knob of a heading stands before. */
+const OWNERS: Partial<Record<HandleName, HandleName>> = {
+  "own-heading": "own",
+  "leader-heading": "leader",
+  "turn-heading": "turn",
+};
 /** Those that are symbols already need no knob. */
 const BARE: readonly HandleName[] = ["own", "leader", "slot"];
 
 export function Grips({ map, view }: { map: Editor; view: LayerProps["view"] }) {
+  const names = useComputed(() => handlesOf(map.situation.value));
   return (
     <g class="grips">
       <RingTouch map={map} view={view} />
-      {HANDLES.map((name) => (
+      {names.value.map((name) => (
         <Grip key={name} map={map} view={view} name={name} />
       ))}
     </g>
@@ -47,10 +58,15 @@ function Grip({ map, view, name }: GripProps) {
   });
   const place = useComputed(() => placeAt(point.value));
   const stick = useComputed(() => {
-    if (name !== "own-heading" && name !== "leader-heading") return "";
+    const owner = OWNERS[name];
+    if (owner === undefined) return "";
     const middle = view.pose.value ?? { x_m: 0, y_m: 0, heading_deg: 0 };
-    const owner = name === "own-heading" ? "own" : "leader";
-    const from = handlePoint(owner, map.situation.value, view.layout.value, middle);
+    const { value } = map.situation;
+    const end = owner === "turn" ? firstTurn(value)?.ends : undefined;
+    const from =
+      end === undefined
+        ? handlePoint(owner, value, view.layout.value, middle)
+        : project(view.layout.value, middle, end);
     return `M0 0L${round(0.6 * (from.x - point.value.x))} ${round(0.6 * (from.y - point.value.y))}`;
   });
   const said = useComputed(() => sayHandle(name, map.situation.value));

@@ -5,11 +5,17 @@ import { Panel } from "../parts";
 const WAYS: readonly (readonly [string, string])[] = [
   [
     "Drag",
-    "either aircraft, the knob before it (its heading), the slot (D), the circle (MIN), the wind",
+    "either aircraft, the knob before it (its heading), the leader's turn, the slot (D), MIN, the wind",
   ],
-  ["Keys", "Tab takes hold of each of these; arrow keys move it, with Shift a little"],
+  [
+    "Keys",
+    "Tab takes hold of each of these; arrow keys move it, with Shift a little; Ctrl-Z takes it back",
+  ],
   ["Map", "drag its ground, turn the wheel, or use two fingers; F brings all into sight"],
-  ["Lines", "dashed: the path; dotted: slower, or too close; thin: equal times, in minutes"],
+  [
+    "Lines",
+    "dashed: what is flown; fine dots: the ideal path; grey: slower, or too close; thin: equal times",
+  ],
 ];
 
 export function HowTo() {

@@ -10,7 +10,7 @@ import { Compass } from "./compass";
 import type { Editor } from "./editor";
 import { followGestures } from "./gestures";
 import { Grips } from "./grips";
-import { MapMessage, OwnShipThere, WindDial } from "./symbols";
+import { AreaEnd, MapMessage, OwnShipThere, WindDial } from "./symbols";
 import "./map.css";
 
 const PLAN = signal<DisplayMode>("PLAN");
@@ -46,7 +46,7 @@ export function PlanMap({ map }: { map: Editor }) {
     if (current !== null) return followGestures(current, map, view);
   }, [map, view]);
   return (
-    <div class="plan-glass">
+    <div class={`plan-glass ${map.isLate.value ? "is-late" : ""}`}>
       <svg
         class="nd plan-ground"
         viewBox={`0 0 ${SIZE} ${SIZE}`}
@@ -74,6 +74,7 @@ export function PlanMap({ map }: { map: Editor }) {
           </g>
           <Labels shown={map.shown} view={view} more={more} />
           <WindDial map={map} />
+          <AreaEnd map={map} />
           <MapMessage map={map} />
         </svg>
         <Grips map={map} view={view} />

@@ -9,9 +9,11 @@ import { Stroke } from "../nd/stroke";
 import { ink } from "../nd/style";
 import { placeAt, toMap } from "../nd/view";
 import { UNABLE } from "../store/notices";
-import { formatHeading, formatKnots } from "../units";
+import { formatHeading, formatKnots, formatMiles } from "../units";
+import { isAreaCut } from "./asking";
 import type { Editor } from "./editor";
 import { DIAL } from "./handles";
+import { BOUNDS } from "./situation";
 
 export function OwnShipThere({ shown, view }: LayerProps) {
   const own = usePart(shown, ({ now }) => now?.pursuer ?? null);
@@ -45,6 +47,21 @@ export function WindDial({ map }: { map: Editor }) {
       )}
       <Cell x={0} y={DIAL.radius + 24} text={text} colour="value" size={20} anchor="middle" />
     </g>
+  );
+}
+
+/** That the area under the map ends, where it does. */
+export function AreaEnd({ map }: { map: Editor }) {
+  if (!map.hasArea.value || !isAreaCut(map)) return null;
+  return (
+    <Cell
+      x={384}
+      y={752}
+      text={`AREA WITHIN ${formatMiles(BOUNDS.position[1], 0)} NM OF THE ORIGIN`}
+      colour="label"
+      size={20}
+      anchor="middle"
+    />
   );
 }
 

@@ -3,7 +3,8 @@
 import { useSignal } from "@preact/signals";
 import { Panel } from "../parts";
 import type { Actions, Session } from "../session";
-import { bodyOf, pythonOf, writeAddress } from "./situation";
+import { writeAddress } from "./link";
+import { bodyOf, pythonOf } from "./situation";
 
 const KINDS = ["Link", "REST", "Python"] as const;
 type Kind = (typeof KINDS)[number];
@@ -39,9 +40,7 @@ export function TakeAlong({ session, actions }: { session: Session; actions: Act
         ))}
       </div>
       <p class="feedback" role="status">
-        {map.notice.value !== "" ? (
-          map.notice.value
-        ) : map.refusal.value !== "" ? (
+        {map.refusal.value !== "" ? (
           <>
             <b class="refused">REFUSED</b> {map.refusal.value}
           </>

@@ -6,17 +6,19 @@
 import { batch } from "@preact/signals";
 import { pathPointAt, windVector } from "../geometry";
 import { NO_MOMENT } from "../store/flight";
+import { forecastPoint } from "../store/forecast";
 import type { PairCard, PairSample } from "../store/pair";
-import type { Flight, Moment } from "../store/types";
+import type { Flight, Moment, Proposal } from "../store/types";
 import { wrap360 } from "../units";
 import type {
   AircraftSample,
+  FlownCard,
+  ForecastChanged,
   LocalLeader,
   OtherPathCard,
   PathPoint,
   PlanAnswer,
   PlanCard,
-  PlanProposed,
 } from "../wire";
 import { leaderRoute, slotNow } from "./leader-route";
 import type { Situation } from "./situation";
@@ -146,7 +148,10 @@ function proposalOf(
   others: readonly OtherPathCard[],
   route: ReturnType<typeof leaderRoute>,
   wind: { x: number; y: number },
-): PlanProposed | null {
+): Proposal | null {
+  const { flown } = plan;
+  if (flown?.status === "flown" && flown.reason !== "")
+    return flightOf(plan, flown, others, route, wind);
   const { least_m, at_s } = plan.separation;
   const pursuer = pathPointAt(plan.segments, at_s, wind);
   const leader = pathPointAt(route, at_s, wind);
@@ -159,8 +164,54 @@ function proposalOf(
     plan,
     pursuer_at_closest: pursuer,
     leader_at_closest: leader,
-    promised_s: plan.time_to_converge_s,
+    promised_s: flown?.status === "flown" ? flown.join_s : plan.time_to_converge_s,
     flown_least_m: least_m,
     others: [...others],
+  };
+}
+
+/** The path that guidance would fly in the place of a plan that no aircraft flies as it is. */
+function flightOf(
+  ideal: PlanCard,
+  card: FlownCard,
+  others: readonly OtherPathCard[],
+  route: ReturnType<typeof leaderRoute>,
+  wind: { x: number; y: number },
+): Proposal | null {
+  const points = card.points;
+  const places = {
+    times_s: points.map(({ t_s }) => t_s),
+    x_m: points.map(({ x_m }) => x_m),
+    y_m: points.map(({ y_m }) => y_m),
+    heading_deg: points.map(({ heading_deg }) => heading_deg),
+  };
+  const leader = pathPointAt(route, card.at_s, wind);
+  const first = points[0];
+  const time = card.segments.at(-1)?.end.t_s;
+  if (leader === null || first === undefined || time === undefined) return null;
+  const head = { kind: "forecast_changed", t_s: 0, ident: OWN } as const;
+  const ends = { pursuer_at_closest: first, leader_at_closest: leader };
+  const flown: ForecastChanged = { ...head, ...places, least_separation_m: card.least_m, ...ends };
+  const closest = forecastPoint(flown, card.at_s);
+  return {
+    kind: "plan_proposed",
+    t_s: 0,
+    ident: OWN,
+    message: "",
+    plan: {
+      ...ideal,
+      word: card.word,
+      segments: card.segments,
+      time_to_converge_s: time,
+      length_m: (ideal.length_m / ideal.time_to_converge_s) * time,
+      separation: { ...ideal.separation, least_m: card.least_m, at_s: card.at_s },
+    },
+    pursuer_at_closest: closest,
+    leader_at_closest: leader,
+    promised_s: card.join_s,
+    flown_least_m: card.least_m,
+    others: [...others],
+    flown: { ...flown, pursuer_at_closest: closest },
+    ideal,
   };
 }

@@ -40,7 +40,6 @@ import { TrackDiamond, TrackLine } from "./track";
 import { TrendVector } from "./trend";
 import { Tube } from "./tube";
 import { TurnPoints } from "./turns";
-import "./nd.css";
 import { type Carrier, createView, type DisplayMode, SIZE } from "./view";
 
 /** What lies under the map: no path is ever covered by it. */

@@ -1,6 +1,7 @@
 import { useComputed } from "@preact/signals";
 import { pathPointAt } from "../geometry";
-import { PathAhead } from "./ahead";
+import { PathAhead, WholePath } from "./ahead";
+import { ForecastAhead } from "./committed";
 import type { Label } from "./labels";
 import { type LayerProps, usePart } from "./layer";
 import { pathData } from "./path";
@@ -8,7 +9,10 @@ import { Stroke } from "./stroke";
 import { LINES } from "./style";
 import { offNose, onMap, type Point, project } from "./view";
 
-/** The path that could be flown, dashed: yellow while it is proposed, cyan once accepted. */
+/**
+ * The path that could be flown, dashed: yellow while it is proposed, cyan once accepted. Where its
+ * flight is known it is that, with the ideal path dotted under it.
+ */
 export function ProposedPath({ shown, view }: LayerProps) {
   const kind = usePart(shown, ({ style }) => style?.path ?? "none");
   const proposed = usePart(shown, (picture) => picture.proposed);
@@ -16,10 +20,24 @@ export function ProposedPath({ shown, view }: LayerProps) {
     const { value } = proposed;
     return value === null ? null : { segments: value.plan.segments, start: value.t_s };
   });
+  const flown = useComputed(() => proposed.value?.flown ?? null);
+  const ideal = useComputed(() => {
+    const plan = proposed.value?.ideal;
+    return plan === undefined ? null : { segments: plan.segments, start: 0 };
+  });
+  const isFlown = useComputed(() => flown.value !== null);
   if (kind.value !== "proposed" && kind.value !== "armed") return null;
+  const line = LINES[kind.value];
   return (
     <g class={`nd-${kind.value}`}>
-      <PathAhead shown={shown} view={view} path={path} line={LINES[kind.value]} />
+      {isFlown.value ? (
+        <>
+          <WholePath shown={shown} view={view} path={ideal} line={LINES.idealProposed} />
+          <ForecastAhead shown={shown} view={view} forecast={flown} line={line} />
+        </>
+      ) : (
+        <PathAhead shown={shown} view={view} path={path} line={line} />
+      )}
     </g>
   );
 }

@@ -19,6 +19,7 @@ export const LINES = {
   active: { colour: "plan", width: 3, dash: "" },
   ideal: { colour: "plan", width: 1, dash: "" },
   proposed: { colour: "proposed", width: 3, dash: "15 12" },
+  idealProposed: { colour: "proposed", width: 1.25, dash: "2 5" },
   armed: { colour: "armed", width: 3, dash: "15 12" },
   ghost: { colour: "superseded", width: 1.5, dash: "3 6" },
   rival: { colour: "value", width: 3, dash: "6 5" },

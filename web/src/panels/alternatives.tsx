@@ -19,7 +19,7 @@ export function Alternatives(props: {
 }) {
   const { shown } = props.session;
   const { plan: shownPlan, state } = shown.numbers.value;
-  const plan = shownPlan?.plan;
+  const plan = shownPlan?.ideal ?? shownPlan?.plan;
   return (
     <Panel
       name="alternatives"
@@ -54,7 +54,7 @@ export function Alternatives(props: {
                 {plan.word}
               </th>
               <td>{formatClock(plan.time_to_converge_s)}</td>
-              <td>{STATE[state] ?? "flown"}</td>
+              <td>{shownPlan?.ideal !== undefined ? "ideal" : (STATE[state] ?? "flown")}</td>
             </tr>
             {(plan.alternatives ?? []).map((alternative) => (
               <tr key={alternativeKey(alternative)}>

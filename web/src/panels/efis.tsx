@@ -1,6 +1,6 @@
 /** The ND's own controls, as on an EFIS panel: mode and range. */
 
-import { showAll, zoom } from "../map/editor";
+import { showAll, step, zoom } from "../map/editor";
 import { Choice } from "../parts";
 import { ND_RANGES, type Session } from "../session";
 
@@ -67,6 +67,24 @@ function MapRange(props: { session: Session }) {
       <output class="map-range">{map.range.value}</output>
       <button type="button" aria-label="Range outward" onClick={() => zoom(map, 1)}>
         +
+      </button>
+      <button
+        type="button"
+        aria-label="Undo"
+        title="Undo (Ctrl-Z)"
+        disabled={map.steps.past.value.length === 0}
+        onClick={() => step(map, -1)}
+      >
+        ↶
+      </button>
+      <button
+        type="button"
+        aria-label="Redo"
+        title="Redo (Ctrl-Shift-Z)"
+        disabled={map.steps.future.value.length === 0}
+        onClick={() => step(map, 1)}
+      >
+        ↷
       </button>
     </div>
   );

@@ -19,13 +19,15 @@ const KEYS: readonly (readonly [string, string])[] = [
   ["R  A  P", "ROSE, ARC, or PLAN: the map"],
   ["F", "on the map: all into sight; arrow keys move it, or what has the focus"],
   ["+  −", "range outward or inward"],
+  ["G", "the flight over time: charts in the place of the scene"],
   ["M", "maximise or restore the 3D scene"],
   ["?", "open or close this help"],
   ["Esc", "close, restore"],
 ];
 
 export function Help(props: { session: Session }) {
-  const { helpOpen, letterKeys, distinctColours, captions } = props.session;
+  const { helpOpen, letterKeys, distinctColours, captions, scenarios } = props.session;
+  const missing = scenarios.value.filter(({ available }) => !available);
   const dialog = useRef<HTMLDivElement>(null);
   const isOpen = helpOpen.value;
   // The focus goes into the dialog, and back to where it was.
@@ -69,6 +71,15 @@ export function Help(props: { session: Session }) {
           </li>
         ))}
       </ul>
+      <p>
+        A path is named by its pieces: S straight, L and R a turn to the left or right, B along the
+        minimum round the leader. SRSR is straight, right, straight, right.
+      </p>
+      {missing.map(({ name, title, message }) => (
+        <p key={name}>
+          <b>{title}</b> is not available. {message}
+        </p>
+      ))}
       <Switch text="Single letters are keys" choice={letterKeys} />
       <Switch text="Colours that anybody can tell apart" choice={distinctColours} />
       <Switch text="Captions for a first minute" choice={captions} />

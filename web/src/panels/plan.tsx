@@ -5,15 +5,17 @@ import type { Session } from "../session";
 import type { LeastAhead, Numbers } from "../store/numbers";
 import { countTurns, plannerName, proofSentence, STATE_NAMES, wordTitle } from "../store/reading";
 import { formatClock, formatMiles } from "../units";
-import type { LinkResult } from "../wire";
+import type { LinkResult, PlanCard } from "../wire";
 
 interface Given {
   session: Pick<Session, "flight" | "shown">;
-  /** What else there is to say of a plan. */
+  /** What is said of a path that is proposed: of its time, in place of when it joins, and beneath. */
+  label?: string;
+  note?: string;
   remark?: string;
 }
 
-export function PlanNumbers({ session, remark }: Given) {
+export function PlanNumbers({ session, label, note, remark }: Given) {
   const { flight, shown } = session;
   const numbers = shown.numbers.value;
   const { sample, plan } = numbers;
@@ -38,19 +40,21 @@ export function PlanNumbers({ session, remark }: Given) {
       {flight.read.value.result !== null ? (
         <Outcome ended={flight.read.value.result} />
       ) : (
-        <Headline numbers={numbers} isJoined={sample.joined} />
+        <Headline numbers={numbers} isJoined={sample.joined} label={label} note={note} />
       )}
+      {plan !== null && remark !== undefined && <p class="why">{remark}</p>}
       <dl class="readings">
         {plan !== null && !isClose && <PathReadings plan={plan} numbers={numbers} />}
         <SpacingReadings numbers={numbers} isClose={isClose} />
         <SafetyReadings numbers={numbers} />
       </dl>
-      {plan !== null && (
-        <p class="proof">{proofSentence(plan.plan.optimality, plan.plan.time_to_converge_s)}</p>
-      )}
-      {plan !== null && remark !== undefined && <p class="proof">{remark}</p>}
+      {plan !== null && <p class="proof">{proofOf(plan.ideal ?? plan.plan)}</p>}
     </Panel>
   );
+}
+
+function proofOf({ optimality, time_to_converge_s }: PlanCard): string {
+  return proofSentence(optimality, time_to_converge_s);
 }
 
 const HEADLINES: Partial<Record<Numbers["state"], string>> = {
@@ -60,7 +64,12 @@ const HEADLINES: Partial<Record<Numbers["state"], string>> = {
 const FLOWN = "as the aircraft will really fly it: it rolls into its turns and brakes for the slot";
 
 /** The one number that matters now. */
-function Headline(props: { numbers: Numbers; isJoined: boolean }) {
+function Headline(props: {
+  numbers: Numbers;
+  isJoined: boolean;
+  label: string | undefined;
+  note: string | undefined;
+}) {
   const { alarm, trouble, toJoin, joinsAt, separation, state } = props.numbers;
   if (trouble !== null && alarm?.level !== "alert") {
     return (
@@ -74,14 +83,14 @@ function Headline(props: { numbers: Numbers; isJoined: boolean }) {
     return (
       <div class="headline">
         <span class="headline-label" title={FLOWN}>
-          {HEADLINES[state] ?? "Time to join, as flown"}
+          {props.label ?? HEADLINES[state] ?? "Time to join, as flown"}
         </span>
         <span class="headline-figure">{toJoin}</span>
-        <span class="headline-note">joins at {joinsAt}</span>
+        <span class="headline-note">{props.note ?? `joins at ${joinsAt}`}</span>
       </div>
     );
   }
-  const tone = alarm?.level ?? "";
+  const tone = alarm === null ? "" : { alert: "lost", caution: "nearing" }[alarm.level];
   return (
     <div class={`headline ${tone}`}>
       <span class="headline-label">{props.isJoined ? "Joined" : "Separation"}</span>

@@ -38,7 +38,9 @@ const WHEEL = 0.0015;
 
 export function Poster({ shown, camera, size, turn, zoom }: Props) {
   const strokes = useComputed(() =>
-    camera.value === null ? [] : strokesOf(shown.picture.value, camera.value, size.value),
+    camera.value === null
+      ? []
+      : strokesOf(shown.picture.value, camera.value, size.value, shown.ghost.value),
   );
   return (
     <svg
@@ -78,7 +80,7 @@ function lookOf({ colour, width, dash, opacity, light }: Stroke) {
 /** Where the sun stands [deg clockwise from north], and how much of the haze below it is its light: as in the
  * server's scene/sky.py. */
 const SUN = 205;
-const GLOW = 0.45;
+const GLOW = 0.7;
 /** The horizon's haze reaches so far up the sky and down the ground, and the sun's light so far up and down
  * [parts of the focal length]. */
 const HAZE = { up: 0.7, down: 0.5 } as const;

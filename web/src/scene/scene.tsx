@@ -40,6 +40,7 @@ const SHOWS: Record<ViewName, string> = {
 };
 /** How often it is looked whether the server's picture is drawn [ms]. */
 const LOOK = 200;
+
 interface Props {
   readonly session: Session;
   readonly actions: Actions;

@@ -4,16 +4,17 @@
  */
 
 import { pathPointAt, windVector } from "../geometry";
-import type { ForecastChanged, PathPoint, PlanChanged, PlanProposed, TurnSegment } from "../wire";
+import type { ForecastChanged, PathPoint, PlanChanged, TurnSegment } from "../wire";
 import { forecastPoint } from "./forecast";
 import { GRAZE, guidance } from "./states";
-import type { Moment } from "./types";
+import type { Moment, Proposal } from "./types";
 
 /** A plan that is flown, or that could be, and when it was made. */
 export type Planned = Pick<
   PlanChanged,
   "t_s" | "plan" | "leader_at_closest" | "pursuer_at_closest"
->;
+> &
+  Pick<Proposal, "ideal">;
 
 /** The plan, while it is flown: not once it is over, and not once guidance has given it up. */
 export function flownPlan(flight: Moment): PlanChanged | null {
@@ -23,7 +24,7 @@ export function flownPlan(flight: Moment): PlanChanged | null {
 }
 
 /** The path that is proposed, accepted or not; null when there is none, or guidance is engaged. */
-export function proposedPlan(flight: Moment): PlanProposed | null {
+export function proposedPlan(flight: Moment): Proposal | null {
   const state = guidance(flight);
   return state === "proposed" || state === "armed" ? flight.proposal : null;
 }
@@ -46,7 +47,7 @@ function reaches(forecast: ForecastChanged | null, t: number): forecast is Forec
 /** The aircraft on its committed path at flight time `t` [s]; null if nobody knows. */
 export function committedPoint(flight: Moment, t: number): PathPoint | null {
   const proposed = proposedPlan(flight);
-  const forecast = proposed === null ? flight.forecast : null;
+  const forecast = proposed === null ? flight.forecast : (proposed.flown ?? null);
   if (reaches(forecast, t)) return forecastPoint(forecast, t);
   const [plan, started] = [proposed ?? flownPlan(flight), flight.started];
   if (plan === null || started === null) return null;

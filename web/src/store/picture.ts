@@ -15,7 +15,6 @@ import type {
   PathPoint,
   PathSegment,
   PlanChanged,
-  PlanProposed,
 } from "../wire";
 import { type Announcements, announcementsOf } from "./announcements";
 import {
@@ -53,7 +52,7 @@ import {
   separation,
 } from "./states";
 import type { TrailPoint } from "./trail";
-import type { Flight, Moment } from "./types";
+import type { Flight, Moment, Proposal } from "./types";
 
 export type { Moved } from "./motion";
 
@@ -127,7 +126,7 @@ export interface Picture {
   /** The plan whose points are shown: flown, or proposed. */
   readonly flown: Planned | null;
   /** The path that is proposed, accepted or not. */
-  readonly proposed: PlanProposed | null;
+  readonly proposed: Proposal | null;
   readonly superseded: PlanChanged | null;
   readonly forecast: ForecastChanged | null;
   /** Joins after turns that the leader has not announced, while a path is proposed or flown. */

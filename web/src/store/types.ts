@@ -9,6 +9,7 @@ import type {
   LeaderRoute,
   LinkResult,
   ModeChanged,
+  PlanCard,
   PlanChanged,
   PlanProposed,
   PlanUnavailable,
@@ -44,6 +45,12 @@ export interface Message {
   readonly text: string;
 }
 
+/** A path that could be flown; on the map also its flight, and the ideal plan that it takes the place of. */
+export interface Proposal extends PlanProposed {
+  readonly flown?: ForecastChanged;
+  readonly ideal?: PlanCard;
+}
+
 /** What all documents but the samples say, up to some instant. */
 export interface Known {
   readonly started: PairCard | null;
@@ -53,7 +60,7 @@ export interface Known {
   /** The last time of the join that was said anew, until the next plan. */
   readonly promise: PromiseChanged | null;
   /** The path that could be flown; null when guidance is engaged, or there is none. */
-  readonly proposal: PlanProposed | null;
+  readonly proposal: Proposal | null;
   /** The path that own ship will really fly, whatever its mode. */
   readonly forecast: ForecastChanged | null;
   /** Where it would join if the leader began a turn now; null while its intent is known. */

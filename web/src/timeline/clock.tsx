@@ -1,6 +1,6 @@
 /** The controls of time: play, step, rate, typed time, loop, and how far behind the newest the page is. */
 
-import type { ReadonlySignal } from "@preact/signals";
+import { type ReadonlySignal, useSignal } from "@preact/signals";
 import { Choice, Icon } from "../parts";
 import { type Actions, RATES, REPLAY_RATES, type Session } from "../session";
 import { speedOf } from "../store/flight";
@@ -124,6 +124,7 @@ function TimeField({ session, actions }: { session: Session; actions: Actions })
   const { read, span } = session.flight;
   const [first, last] = [span.value?.first ?? 0, span.value?.last ?? 0];
   const refusal = session.timeRefusal;
+  const typed = useSignal<string | null>(null);
   const take = (field: HTMLInputElement) => {
     const t = readClockText(field.value);
     if (t === null) refusal.value = `“${field.value}” is no time: type 13:39, or 819 for seconds.`;
@@ -132,6 +133,7 @@ function TimeField({ session, actions }: { session: Session; actions: Actions })
     else {
       refusal.value = "";
       actions.seek(t);
+      typed.value = formatClock(t);
     }
   };
   return (
@@ -140,14 +142,20 @@ function TimeField({ session, actions }: { session: Session; actions: Actions })
       <input
         type="text"
         inputMode="numeric"
-        value={formatClock(read.value.t)}
+        value={typed.value ?? formatClock(read.value.t)}
         size={7}
         aria-invalid={refusal.value !== ""}
         aria-describedby="time-refusal"
-        onFocus={(event) => event.currentTarget.select()}
+        onFocus={(event) => {
+          typed.value = event.currentTarget.value; // the time goes on, what is typed stands
+          event.currentTarget.select();
+        }}
+        onInput={(event) => {
+          typed.value = event.currentTarget.value;
+        }}
         onChange={(event) => take(event.currentTarget)}
-        onBlur={(event) => {
-          event.currentTarget.value = formatClock(read.value.t);
+        onBlur={() => {
+          typed.value = null;
         }}
       />
       <span class="of">of {formatClock(last)}</span>

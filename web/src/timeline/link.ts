@@ -10,6 +10,7 @@ const REST = 300;
 export function lookAs({ ndMode, ndRange, ndAuto }: Session, link: URLSearchParams): void {
   const mode = link.get("nd");
   if (mode === "ARC" || mode === "ROSE") ndMode.value = mode;
+  else if (ndMode.value === "PLAN" && !link.has("plan")) ndMode.value = "ARC";
   const range = ND_RANGES.find((each) => String(each) === link.get("range"));
   if (range === undefined) return;
   ndAuto.value = false;
@@ -34,7 +35,7 @@ export function followInstant(session: Session): void {
         if (value === null) address.searchParams.delete(name);
         else address.searchParams.set(name, value);
       };
-      if (!address.searchParams.has("flight")) return;
+      if (!["flight", "compare"].some((name) => address.searchParams.has(name))) return;
       put("t", t);
       put("nd", mode === "ROSE" ? mode : null);
       put("range", range);

@@ -5,18 +5,21 @@ import { areaLabels } from "../../src/map/area";
 import { MapBench } from "../../src/map/bench";
 import { createEditor, edit, halfExtent, putSituation, zoom } from "../../src/map/editor";
 import { situationOf } from "../../src/map/from-flight";
-import { dragHandle, HANDLES, handlePoint, keyHandle, sayHandle } from "../../src/map/handles";
+import { dragHandle, HANDLES, handlePoint, handlesOf, keyHandle } from "../../src/map/handles";
 import { labelPlace } from "../../src/map/label-place";
 import { mapView, PlanMap } from "../../src/map/map";
+import { sayHandle } from "../../src/map/say-handle";
 import { FIRST, settle } from "../../src/map/situation";
+import { firstTurn } from "../../src/map/turn-handles";
 import { chooseLabels } from "../../src/nd/labelled";
 import { ringLabelPoints } from "../../src/nd/rings";
+import { LINES } from "../../src/nd/style";
 import { layoutOf, overlap, project } from "../../src/nd/view";
 import { createSession } from "../../src/session";
 import { createFlightStore } from "../../src/store/flight";
 import { guidance } from "../../src/store/states";
-import { NM } from "../../src/units";
-import type { PlanCard } from "../../src/wire";
+import { formatClock, NM } from "../../src/units";
+import type { FlownCard, FlownPoint, PathPoint, PlanCard } from "../../src/wire";
 import { mount } from "../nd/draw";
 import { documentsOf, flightAt } from "../nd/fixture";
 import { noPlan, point, rightTurn, straight } from "../samples";
@@ -53,19 +56,84 @@ test("a situation with its plan is drawn as a proposal, with its ghosts", () => 
   ])
     expect(root.querySelector(`.nd-${name}`), name).not.toBeNull();
   expect(root.querySelectorAll(`.grip[tabindex="0"]`)).toHaveLength(HANDLES.length);
+  edit(map, (now) => ({ ...now, leader: { ...now.leader, intent: [] } }));
+  expect(handlesOf(map.situation.value)).toHaveLength(HANDLES.length - 2);
   expect(map.shown.numbers.value.toJoin).not.toBe("");
 });
 
-test("beside the map it is said of a plan, and of nothing else, that a flight takes longer", () => {
+/** The flight of a plan: later, by its own path. */
+function flownCard(by = 60): FlownCard {
+  const end = plan.time_to_converge_s + by;
+  const place = ({ x_m, y_m, heading_deg }: PathPoint, t_s: number): FlownPoint => ({
+    t_s,
+    x_m,
+    y_m,
+    heading_deg,
+    tas_mps: 240,
+  });
+  const [first, last] = [plan.segments[0], plan.segments.at(-1)];
+  if (first === undefined || last === undefined) throw new Error("An empty plan.");
+  return {
+    status: "flown",
+    join_s: end,
+    least_m: 9_500,
+    at_s: 300,
+    word: "LRL",
+    reason: by > 1 ? "It begins to turn 7 s later and keeps 5.10 NM: 60 s more." : "",
+    segments: plan.segments,
+    points: [place(first.start, 0), place(first.end, 60), place(last.end, end)],
+  };
+}
+
+function beside(card: PlanCard): string {
   vi.useFakeTimers({ toFake: ["setTimeout", "performance"] });
-  const session = { ...createSession(createFlightStore().flight), map: answered() };
-  const said = "Flown, it takes some seconds more: to roll into each turn, and to slow down";
+  const session = { ...createSession(createFlightStore().flight), map: answered(card) };
   vi.advanceTimersByTime(1000);
-  expect(mount(MapBench, { session, actions: silentActions() }).textContent).toContain(said);
-  session.map.answered.value = null;
-  vi.advanceTimersByTime(1000);
-  expect(mount(MapBench, { session, actions: silentActions() }).textContent).not.toContain(said);
+  const text = mount(MapBench, { session, actions: silentActions() }).textContent ?? "";
   vi.useRealTimers();
+  return text;
+}
+
+test("the headline is the flown time; the ideal one stands beside it with the reason", () => {
+  const flown = flownCard();
+  const text = beside({ ...plan, flown });
+  const ideal = formatClock(plan.time_to_converge_s);
+  expect(text).toContain(`Proposed, as flown${formatClock(flown.join_s)}ideal ${ideal}`);
+  expect(text).toContain(`Ideal ${ideal} by ${plan.word}. It begins to turn 7 s later`);
+  expect(text).toContain("Optimal: no path is faster");
+});
+
+test("times that are alike need no reason, and a plan that is not flown says why", () => {
+  const alike = beside({ ...plan, flown: flownCard(0) });
+  expect(alike).toContain(`ideal ${formatClock(plan.time_to_converge_s)}`);
+  expect(alike).not.toContain("It begins to turn");
+  const reason = "An A306 cannot fly at 60 m/s.";
+  const grounded = beside({ ...plan, flown: { status: "not_flown", reason } });
+  expect(grounded).toContain(`Ideal${formatClock(plan.time_to_converge_s)}not flown`);
+  expect(grounded).toContain("Not flown: An A306 cannot fly at 117 kt.");
+});
+
+test("the flown path is drawn, the ideal one thin under it, and the join is where it is flown", () => {
+  const flown = flownCard();
+  const map = answered({ ...plan, flown });
+  const root = mount(PlanMap, { map });
+  const dashes = [...root.querySelectorAll(".nd-proposed [stroke-dasharray]")].map((each) =>
+    each.getAttribute("stroke-dasharray"),
+  );
+  expect(dashes).toContain(LINES.proposed.dash);
+  expect(dashes).toContain(LINES.idealProposed.dash);
+  const { join, proposed } = map.shown.picture.value;
+  expect(join?.x_m).toBeCloseTo(flown.points.at(-1)?.x_m ?? 0, 0);
+  expect(proposed?.plan.word).toBe("LRL");
+  expect(proposed?.ideal?.word).toBe(plan.word);
+});
+
+test("while the next plan is late the last one stays, dimmed", () => {
+  const map = answered();
+  map.isLate.value = true;
+  const root = mount(PlanMap, { map });
+  expect(root.querySelector(".is-late .nd-proposed")).not.toBeNull();
+  expect(guidance(map.flight.moment.value)).toBe("proposed");
 });
 
 test("without a plan the slot is crossed and the map says why; without an answer it says nothing", () => {
@@ -107,6 +175,24 @@ describe("handles", () => {
     expect(near.slot_distance_m).toBe(FIRST.min_separation_m);
     const wide = settle(dragHandle("ring", FIRST, { x_m: 90_000, y_m: 0 }, { x: 0, y: 0 }));
     expect(wide.min_separation_m).toBe(FIRST.slot_distance_m);
+  });
+
+  test("the leader's turn begins where it is dragged to, and leads where its heading is pointed", () => {
+    const later = settle(dragHandle("turn", FIRST, { x_m: 100_000, y_m: 7_000 }, { x: 0, y: 0 }));
+    expect(later.leader.intent[0]).toEqual({ straight_s: 500 });
+    const { ends } = firstTurn(later) ?? { ends: later.leader };
+    const north = { x_m: ends.x_m + 50_000, y_m: ends.y_m + 50_000 };
+    const [, turn] = settle(dragHandle("turn-heading", later, north, { x: 0, y: 0 })).leader.intent;
+    expect(turn).toEqual({ turn_to_heading_deg: 45, direction: "left", bank_deg: 25 });
+  });
+
+  test("a turn that begins at once gets a straight before it", () => {
+    const [, turn] = FIRST.leader.intent;
+    if (turn === undefined) throw new Error("No turn.");
+    const now = { ...FIRST, leader: { ...FIRST.leader, intent: [turn] } };
+    const later = dragHandle("turn", now, { x_m: 20_000, y_m: 0 }, { x: 0, y: 0 });
+    expect(later.leader.intent).toEqual([{ straight_s: 100 }, turn]);
+    expect(keyHandle("turn", now, "ArrowLeft", false)).toEqual(now);
   });
 
   test.each(HANDLES)("%s is moved by arrows, finely with Shift, and by no other key", (name) => {

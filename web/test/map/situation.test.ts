@@ -2,16 +2,7 @@ import { describe, expect, test } from "vitest";
 import { windVector } from "../../src/geometry";
 import { entryOf, GALLERY } from "../../src/map/gallery";
 import { leaderRoute, slotNow } from "../../src/map/leader-route";
-import {
-  bodyOf,
-  clearAddress,
-  FIRST,
-  pythonOf,
-  readAddress,
-  type Situation,
-  settle,
-  writeAddress,
-} from "../../src/map/situation";
+import { bodyOf, FIRST, pythonOf, type Situation, settle } from "../../src/map/situation";
 import { documentsOf } from "../nd/fixture";
 
 const WINDY: Situation = {
@@ -25,44 +16,6 @@ const WINDY: Situation = {
   },
   wind: { from_deg: 310, speed_mps: 20.58 },
 };
-
-describe("the address", () => {
-  test.each(GALLERY.map(({ name, situation }) => [name, settle(situation)] as const))(
-    "holds all of %s",
-    (_, situation) => {
-      const address = new URL("http://there/?plan");
-      writeAddress(address, situation);
-      expect(readAddress(new URL(address.href).searchParams)).toEqual(situation);
-    },
-  );
-
-  test("holds fractions, left turns and wind", () => {
-    const address = new URL("http://there/?plan");
-    writeAddress(address, WINDY);
-    expect(readAddress(new URL(address.href).searchParams)).toEqual(WINDY);
-    clearAddress(address);
-    expect(address.href).toBe("http://there/?plan=");
-  });
-
-  test.each(["own=1 2 3", "own=a b c d e", "intent=60x", "wind=270", "distances=10000"])(
-    "that is not whole is none: %s",
-    (broken) => {
-      const address = new URL("http://there/?plan");
-      writeAddress(address, WINDY);
-      const [name = "", value = ""] = broken.split("=");
-      address.searchParams.set(name, value);
-      expect(readAddress(address.searchParams)).toBeNull();
-    },
-  );
-
-  test("is brought within the bounds of what is planned", () => {
-    const address = new URL("http://there/?plan");
-    writeAddress(address, { ...FIRST, slot_distance_m: 1000, min_separation_m: 9e9 });
-    const read = readAddress(address.searchParams);
-    expect(read?.min_separation_m).toBe(200_000);
-    expect(read?.slot_distance_m).toBe(200_000);
-  });
-});
 
 test("the body leaves out what is empty, and names every unit", () => {
   expect(bodyOf({ ...FIRST, leader: { ...FIRST.leader, intent: [] } })).toEqual({
