@@ -68,12 +68,12 @@ export interface Session {
   readonly ndAuto: Signal<boolean>;
   /** What is laid out on the map. */
   readonly map: Editor;
-  /** Four planners side by side. */
-  readonly planners: Planners;
   /** The flight that is seen beside the shown one, if there is one. */
   readonly comparison: Comparison;
   /** Whether the flight is drawn over time in the scene's place. */
   readonly chartsOpen: Signal<boolean>;
+  /** Four planners side by side. */
+  readonly planners: Planners;
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
@@ -142,8 +142,8 @@ export function createSession(
   firstStart: Signal<Readiness | null> = signal(null),
   history: () => History = createHistory,
 ): Session {
-  const planners = createPlanners();
   const comparison = createComparison(flight, history);
+  const planners = createPlanners();
   return {
     flight,
     history,
@@ -153,6 +153,7 @@ export function createSession(
     recordsOpen: signal(false),
     shown: createShown(flight, comparison.ghost, planners.rivals),
     comparison,
+    planners,
     chartsOpen: signal(false),
     scenarios: signal([]),
     status: signal(null),
@@ -162,7 +163,6 @@ export function createSession(
     ndRange: signal(40),
     ndAuto: signal(true),
     map: createEditor(comparison.ghost),
-    planners,
     sceneMaximised: signal(false),
     helpOpen: signal(false),
     letterKeys: signal(true),
