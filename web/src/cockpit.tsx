@@ -18,7 +18,9 @@ import { Header } from "./panels/header";
 import { LeaderControls } from "./panels/leader-controls";
 import { OutageNotice } from "./panels/outage";
 import { PlanNumbers } from "./panels/plan";
+import { PlannersPanel } from "./panels/planners";
 import { ScenarioPicker } from "./panels/scenario-picker";
+import { set } from "./parts";
 import { Scene } from "./scene/scene";
 import type { Actions, Session } from "./session";
 import { Timeline } from "./timeline/timeline";
@@ -48,7 +50,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
     <>
       <Header session={session}>
         <ScenarioPicker session={session} actions={actions} />
-        <button type="button" class="quiet" onClick={() => actions.compare(...FIGURES)}>
+        <button type="button" onClick={() => actions.compare(...FIGURES)}>
           Fig. 6a beside 6b
         </button>
         <FirstStart readiness={session.firstStart} />
@@ -110,12 +112,12 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
               <div class="column numbers">
                 {!small.value && <Engage session={session} actions={actions} />}
                 <PlanNumbers session={session} />
-                {narrow.value && <Alternatives session={session} />}
+                {narrow.value && <Others session={session} />}
               </div>
               {!narrow.value && (
                 <div class="column lists">
                   <Aircraft session={session} actions={actions} />
-                  <Alternatives session={session} />
+                  <Others session={session} />
                 </div>
               )}
             </div>
@@ -127,6 +129,16 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
       {session.recordsOpen.value && <Records session={session} actions={actions} />}
       <Announcer session={session} />
     </>
+  );
+}
+
+/** The other paths of the planner that flies, or what other planners would fly. */
+function Others({ session }: { session: Session }) {
+  const { isOpen } = session.planners;
+  return isOpen.value ? (
+    <PlannersPanel session={session} />
+  ) : (
+    <Alternatives session={session} compare={set(isOpen, true)} />
   );
 }
 

@@ -21,6 +21,7 @@ import { isTaken, keyAction, stepAction } from "./keyboard";
 import { followAddress } from "./map/address";
 import { followMap } from "./map/asking";
 import { drawPictures } from "./pace";
+import { followPlanners } from "./planners";
 import { keepPreferences } from "./preferences";
 import { createSession } from "./session";
 import { soundAlerts } from "./sound";
@@ -38,6 +39,7 @@ followRange(session);
 followMap(session);
 followAddress(session);
 followInstant(session);
+followPlanners(session.planners, store.flight);
 takeDroppedFiles(actions);
 
 const place = document.querySelector("#cockpit");

@@ -3,7 +3,7 @@
 import { computed, useComputed, useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { shortName } from "../compare/compared";
-import { Choice } from "../parts";
+import { Choice, Icon, set } from "../parts";
 import type { Actions, Session } from "../session";
 import { type Planned, shownPlan } from "../store/committed";
 import { formatClock } from "../units";
@@ -12,7 +12,7 @@ import { Exports } from "./exports";
 import { type Costates, costatesOf, NO_PLAN } from "./optimality";
 import { LEFT, RIGHT, type Window } from "./plot";
 import { Strips } from "./plots";
-import { ticksOf } from "./scale";
+import { timesOf } from "./scale";
 import { type Strip, spanOf, stripsOf, valueAt } from "./strips";
 import "./charts.css";
 
@@ -22,8 +22,6 @@ type Seen = (typeof SEEN)[number];
 const LENGTH: Record<Seen, number> = { ALL: Number.POSITIVE_INFINITY, "10 MIN": 600, "2 MIN": 120 };
 /** The cursor stands at this part of what is seen, the rest is to come. */
 const PAST = 0.6;
-/** Steps of the time axis [s]. */
-const TIMES = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600];
 /** The service is asked for costates once a plan has been looked at for so long [ms]. */
 const REST = 400;
 
@@ -33,6 +31,7 @@ export interface Props {
 }
 
 export function Charts({ session, actions }: Props) {
+  const { sceneMaximised } = session;
   const seen = useSignal<Seen>("ALL");
   const model = useMemo(() => createModel(session), [session]);
   const costates = useCostates(session, model.plan.value);
@@ -47,6 +46,7 @@ export function Charts({ session, actions }: Props) {
         <h2 id="panel-charts">Over time</h2>
         <Choice
           label="How much is seen"
+          kind="worded"
           options={SEEN}
           chosen={seen.value}
           choose={(each) => {
@@ -57,10 +57,13 @@ export function Charts({ session, actions }: Props) {
         <button
           type="button"
           class="quiet"
-          onClick={() => {
-            session.chartsOpen.value = false;
-          }}
+          aria-pressed={sceneMaximised.value}
+          onClick={set(sceneMaximised, !sceneMaximised.value)}
         >
+          <Icon name={sceneMaximised.value ? "restore" : "maximise"} />
+          {sceneMaximised.value ? "Restore" : "Maximise"}
+        </button>
+        <button type="button" class="quiet" onClick={set(session.chartsOpen, false)}>
           Close
         </button>
       </header>
@@ -138,7 +141,7 @@ function windowOf(strips: readonly Strip[], seen: Seen, { flight }: Session): Wi
 
 /** The time axis, over all strips: what stands on it stays in sight. */
 function TimeAxis({ session, window }: Props & { window: Window }) {
-  const ticks = ticksOf(window.from, window.to, 7, TIMES);
+  const ticks = timesOf(window.from, window.to);
   const share = (t: number) => (t - window.from) / (window.to - window.from);
   const { t } = session.flight.read.value;
   return (

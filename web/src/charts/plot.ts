@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Colour } from "../store/colours";
-import { apartLabels, boundsOf } from "./scale";
+import { apartLabels, boundsOf, timesOf } from "./scale";
 import type { Strip } from "./strips";
 
 /** Margins beside the plot [px]: the axis on the left, what lines are called on the right. */
@@ -52,7 +52,12 @@ export function createPlot(
         y: { range: () => boundsOf(strip, window.from, window.to) },
       },
       axes: [
-        { ...axis, size: 0, values: (_, ticks) => ticks.map(() => "") },
+        {
+          ...axis,
+          size: 0,
+          splits: () => timesOf(window.from, window.to),
+          values: (_, ticks) => ticks.map(() => ""),
+        },
         {
           ...axis,
           size: LEFT,

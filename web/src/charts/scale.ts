@@ -42,6 +42,15 @@ export function ticksOf(
   return ticks;
 }
 
+/** Steps of a time axis [s], and how many of them there are about. */
+const TIMES = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14_400];
+const COUNT = 8;
+
+/** Round times between two [s]. */
+export function timesOf(from: number, to: number): number[] {
+  return ticksOf(from, to, COUNT, TIMES);
+}
+
 export interface EndLabel {
   readonly label: string;
   readonly colour: Colour;

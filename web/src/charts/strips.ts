@@ -86,22 +86,22 @@ export function stripsOf(history: History, ahead: Ahead | null, other: Other | n
       "NM",
       2,
       [
-        { label: "d", colour: "value", ...FLOWN, values: of("separation_m", NM) },
+        { label: "d", colour: "ownship", ...FLOWN, values: of("separation_m", NM) },
         ...forecast(at((t) => ahead?.separation(t) ?? null)),
         ...others("separation_m", NM),
       ],
       levelsOf(history, ahead),
     ),
     strip("along", "Along error: behind the slot", "NM", 2, [
-      { label: "ALONG", colour: "value", ...FLOWN, values: of("spacing_error_m", NM) },
+      { label: "ALONG", colour: "ownship", ...FLOWN, values: of("spacing_error_m", NM) },
       ...others("spacing_error_m", NM),
     ]),
     strip("across", "Across error: right of the leader's route", "NM", 2, [
-      { label: "ACROSS", colour: "value", ...FLOWN, values: of("cross_track_m", NM) },
+      { label: "ACROSS", colour: "ownship", ...FLOWN, values: of("cross_track_m", NM) },
       ...others("cross_track_m", NM),
     ]),
     strip("bank", "Bank: right positive", "°", 1, [
-      { label: "FLOWN", colour: "value", ...FLOWN, values: of("pursuer.bank_deg", 1) },
+      { label: "FLOWN", colour: "ownship", ...FLOWN, values: of("pursuer.bank_deg", 1) },
       { label: "PLAN", colour: "plan", ...PLANNED, values: at((t) => plannedBank(ahead, t)) },
       ...others("pursuer.bank_deg", 1),
     ]),
@@ -109,7 +109,7 @@ export function stripsOf(history: History, ahead: Ahead | null, other: Other | n
       ...strip("heading", "Heading", "°", 0, [
         {
           label: "FLOWN",
-          colour: "value",
+          colour: "ownship",
           ...FLOWN,
           values: times.map((_, k) => heading[k] ?? null),
         },
@@ -130,13 +130,13 @@ export function stripsOf(history: History, ahead: Ahead | null, other: Other | n
       format: formatHeading,
     },
     strip("speed", "True airspeed", "kt", 0, [
-      { label: "TAS", colour: "value", ...FLOWN, values: of("pursuer.tas_mps", KT) },
+      { label: "TAS", colour: "ownship", ...FLOWN, values: of("pursuer.tas_mps", KT) },
       { label: "COMMANDED", colour: "managed", ...PLANNED, values: of("commanded_tas_mps", KT) },
       { label: "LEADER", colour: "leader", ...THIRD, values: of("leader.tas_mps", KT) },
       ...others("pursuer.tas_mps", KT),
     ]),
     strip("closure", "Closure: positive when closing", "kt", 0, [
-      { label: "CLS", colour: "value", ...FLOWN, values: of("closure_mps", KT) },
+      { label: "CLS", colour: "ownship", ...FLOWN, values: of("closure_mps", KT) },
       ...others("closure_mps", KT),
     ]),
   ];

@@ -2,7 +2,7 @@
 
 import type { Colour } from "../store/colours";
 import { formatClock } from "../units";
-import { apartLabels, boundsOf, ticksOf } from "./scale";
+import { apartLabels, boundsOf, ticksOf, timesOf } from "./scale";
 import type { Line, Strip } from "./strips";
 
 /** What stands above and below the charts. */
@@ -48,12 +48,7 @@ export function chartSvg(strips: readonly Strip[], about: About): string {
   const height = HEAD + strips.length * STRIP + 34;
   const parts = strips.map((strip, k) => plot(strip, about, HEAD + k * STRIP + 22));
   const base = HEAD + strips.length * STRIP;
-  const time = ticksOf(
-    about.from,
-    about.to,
-    10,
-    [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800],
-  );
+  const time = timesOf(about.from, about.to);
   const axis = time.map((t) => text(x(about, t), base + 10, formatClock(t), "middle"));
   const y0 = HEAD + 22;
   const cursor = `<path d="M${x(about, about.cursor)} ${y0}V${base - 8}" stroke="#000" stroke-width="1" stroke-dasharray="1 3"/>`;

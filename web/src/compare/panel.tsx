@@ -1,6 +1,7 @@
 /** Two flights in figures: when each joined, and what it took. */
 
 import { useComputed } from "@preact/signals";
+import { FeedbackLine } from "../panels/flight-controls";
 import { Choice } from "../parts";
 import type { Actions, Session } from "../session";
 import { formatClock, formatMiles } from "../units";
@@ -28,14 +29,14 @@ function whole(value: number): string {
 
 const ROWS: readonly Row[] = [
   { label: "Joined at", unit: "min:s", value: ({ join }) => join, text: formatClock },
-  { label: "Track flown until joined", unit: "NM", value: ({ track }) => track, text: formatMiles },
+  { label: "Track miles", unit: "NM", value: ({ track }) => track, text: formatMiles },
   {
     label: "Least separation",
     unit: "NM",
     value: ({ least }) => least,
     text: (value) => formatMiles(value, 2),
   },
-  { label: "Heading swing until joined", unit: "°", value: ({ swing }) => swing, text: whole },
+  { label: "Heading swing", unit: "°", value: ({ swing }) => swing, text: whole },
   { label: "Bank reversals", unit: "", value: ({ reversals }) => reversals, text: whole },
   { label: "Replans", unit: "", value: ({ replans }) => replans, text: whole },
 ];
@@ -56,7 +57,7 @@ export function ComparePanel({ session, actions }: { session: Session; actions: 
     <section class="panel compare" aria-labelledby="panel-compare">
       <header>
         <h2 id="panel-compare">
-          {started?.title ?? "This flight"} <i>beside</i> {compared.title}
+          {shortName(started)} beside {shortName(startedOther)}
         </h2>
         <button type="button" class="quiet" onClick={actions.endComparison}>
           Close
@@ -85,6 +86,13 @@ export function ComparePanel({ session, actions }: { session: Session; actions: 
             ))}
           </tbody>
         </table>
+        <dl>
+          <dt class="solid">{shortName(started)}</dt>
+          <dd>{started?.title ?? "The flight that is shown"}</dd>
+          <dt class="dashed">{shortName(startedOther)}</dt>
+          <dd>{compared.title}</dd>
+        </dl>
+        <p class="hint">Track, swing and reversals are counted until joined.</p>
         {own.value?.isFinal === false && (
           <p class="hint">This flight goes on: its figures so far.</p>
         )}
@@ -92,6 +100,7 @@ export function ComparePanel({ session, actions }: { session: Session; actions: 
           <span class="aligned">Side by side by</span>
           <Choice
             label="Which instants stand side by side"
+            kind="worded"
             options={ALIGNMENTS}
             chosen={how.value}
             text={(each) => ALIGNED[each]}
@@ -105,6 +114,7 @@ export function ComparePanel({ session, actions }: { session: Session; actions: 
             ? `${missing(session, compared.history, how.value)} Until then the clocks are side by side.`
             : shift(offset.value, shortName(startedOther))}
         </p>
+        <FeedbackLine feedback={session.feedback.value} />
       </div>
     </section>
   );

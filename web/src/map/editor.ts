@@ -67,7 +67,7 @@ export interface Editor {
   };
 }
 
-export function createEditor(): Editor {
+export function createEditor(ghost?: Shown["ghost"]): Editor {
   const [flight, read] = [emptyFlight(), emptyFlight()];
   const situation = signal(FIRST);
   const answered = signal<Answered | null>(null);
@@ -89,7 +89,7 @@ export function createEditor(): Editor {
     thumbs: createThumbs(),
     isBegun: signal(false),
     flight,
-    shown: createShown(flight),
+    shown: createShown(flight, ghost),
     reading: {
       situation: computed(() => slow.value.situation),
       answered: computed(() => slow.value.answered),

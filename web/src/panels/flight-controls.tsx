@@ -40,7 +40,7 @@ const FEEDBACK_SIGN: Record<Feedback["kind"], string> = {
 };
 
 /** What became of the last command, said and shown. */
-function FeedbackLine(props: { feedback: Feedback }) {
+export function FeedbackLine(props: { feedback: Feedback }) {
   const { feedback } = props;
   return (
     <p class={`feedback ${feedback.kind}`} role="status">

@@ -63,6 +63,21 @@ function RecordList({ session, actions }: Props) {
           />
         </label>
       </p>
+      <p>
+        <label class="file">
+          Or show one beside the flight that is shown:{" "}
+          <input
+            type="file"
+            accept=".jsonl,.gz,.json"
+            onChange={(event) => {
+              const file = event.currentTarget.files?.[0];
+              if (file === undefined) return;
+              close();
+              actions.compareWith(file);
+            }}
+          />
+        </label>
+      </p>
       <label class="search">
         Search{" "}
         <input
@@ -123,6 +138,17 @@ function Row({ flight, session, actions }: Props & { flight: RecordedFlight }) {
           }}
         >
           {flight.title}
+        </button>{" "}
+        <button
+          type="button"
+          class="link"
+          aria-label={`Beside the shown flight: ${flight.title}`}
+          onClick={() => {
+            session.recordsOpen.value = false;
+            actions.compareWith(`record:${flight.id}`);
+          }}
+        >
+          beside
         </button>
       </td>
       <td>

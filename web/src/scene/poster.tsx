@@ -38,7 +38,9 @@ const WHEEL = 0.0015;
 
 export function Poster({ shown, camera, size, turn, zoom }: Props) {
   const strokes = useComputed(() =>
-    camera.value === null ? [] : strokesOf(shown.picture.value, camera.value, size.value),
+    camera.value === null
+      ? []
+      : strokesOf(shown.picture.value, camera.value, size.value, shown.ghost.value),
   );
   return (
     <svg

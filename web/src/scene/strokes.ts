@@ -6,6 +6,7 @@ import { LINES, SEPARATION } from "../nd/style";
 import { onwards, type Place } from "../nd/view";
 import type { Colour } from "../store/colours";
 import { forecastIndex, pointsAfter } from "../store/forecast";
+import type { Ghost } from "../store/ghost";
 import type { Picture } from "../store/picture";
 import type { TrailPoint } from "../store/trail";
 import { FT, NM } from "../units";
@@ -55,7 +56,12 @@ export function middleOf(now: { readonly pursuer: Place; readonly leader: Place 
   return { x_m: (pursuer.x_m + leader.x_m) / 2, y_m: (pursuer.y_m + leader.y_m) / 2 };
 }
 
-export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[] {
+export function strokesOf(
+  picture: Picture,
+  camera: Camera,
+  size: Size,
+  ghost: Ghost | null = null,
+): Stroke[] {
   const { now, style, route, wind, t, leader } = picture;
   if (now === null) return [];
   const glass = glassOf(camera, middleOf(now), size);
@@ -72,6 +78,11 @@ export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[
   const past = { width: 2, dash: "", opacity: 0.7 };
   add("own-past", marks(picture.ownTrail, now.pursuer, glass), { colour: "ownship", ...past });
   add("leader-past", marks(picture.trail, now.leader, glass), { colour: "leader", ...past });
+  if (ghost !== null) {
+    const { pursuer, flown } = ghost;
+    add("other-drop", dropLine(pursuer, glass), { ...LINES.other, width: 1 });
+    add("other-path", glass.line(raise(flown, pursuer.altitude_m)), LINES.other);
+  }
   if (route !== null) {
     const look = route.intent_known ? LINES.declared : LINES.extrapolated;
     add("route", glass.line(raise(samplePath(route.segments, wind, t), other)), look);
@@ -115,6 +126,9 @@ export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[
   const both = [
     { name: "own", aircraft: now.pursuer, colour: "ownship" as const },
     ...(leader === null ? [] : [{ name: "leader", aircraft: leader, colour: hue }]),
+    ...(ghost === null
+      ? []
+      : [{ name: "other", aircraft: ghost.pursuer, colour: LINES.other.colour }]),
   ];
   for (const { name, aircraft, colour } of both.sort((a, b) => far(b.aircraft) - far(a.aircraft)))
     for (const facet of airliner(aircraft, length, glass))
