@@ -1,14 +1,20 @@
-"""What a browser has to load before the cockpit stands: the scene's own page is not part of it."""
+"""What a browser has to load before the cockpit stands.
+
+The scene follows at once, beside its own page; map, charts, records and help come when they are opened.
+"""
 
 import gzip
+import re
 
 from tests.browser.service import ROOT
 
 MOST = 80_000
-"""Of all scripts and styles, compressed as they are sent [bytes]."""
+"""Of all scripts and styles that the page names, compressed as they are sent [bytes]."""
 
 
 def test_the_page_is_light() -> None:
-    assets = [*ROOT.glob("web/dist/assets/*.js"), *ROOT.glob("web/dist/assets/*.css")]
-    assert assets
-    assert sum(len(gzip.compress(each.read_bytes(), 9)) for each in assets) <= MOST
+    page = ROOT / "web" / "dist" / "index.html"
+    named = set(re.findall(r'(?:src|href)="\./([^"]+\.(?:js|css))"', page.read_text("utf-8")))
+    assert named
+    assets = [(page.parent / each).read_bytes() for each in named]
+    assert sum(len(gzip.compress(each, 9)) for each in assets) <= MOST

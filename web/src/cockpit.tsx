@@ -18,10 +18,8 @@ import { Header } from "./panels/header";
 import { LeaderControls } from "./panels/leader-controls";
 import { OutageNotice } from "./panels/outage";
 import { PlanNumbers } from "./panels/plan";
-import { PlannersPanel } from "./panels/planners";
 import { ScenarioPicker } from "./panels/scenario-picker";
 import { set } from "./parts";
-import { Scene } from "./scene/scene";
 import type { Actions, Session } from "./session";
 import { Timeline } from "./timeline/timeline";
 
@@ -33,6 +31,11 @@ const SMALL = "(max-width: 999px)";
 const MapBench = late(async () => (await import("./map/bench")).MapBench, "The map is on its way.");
 const PlanMap = late(async () => (await import("./map/map")).PlanMap, "The map is on its way.");
 const UnderMap = late(async () => (await import("./map/under-map")).UnderMap, "");
+const PlannersPanel = late(
+  async () => (await import("./panels/planners")).PlannersPanel,
+  "The planners are on their way.",
+);
+const Scene = late(async () => (await import("./scene/scene")).Scene, "The scene is on its way.");
 const Help = late(async () => (await import("./panels/help")).Help, "");
 const Charts = late(
   async () => (await import("./charts/charts")).Charts,
