@@ -187,8 +187,8 @@ export function createActions(
     clearInterval(waiting);
     const refused = [shown, beside].find((each) => each.kind === "refused");
     if (shown.kind === "refused" || beside.kind === "refused") {
-      say("refused", refused?.kind === "refused" ? refused.sentence : "");
       if (session.status.value === null) await begin(requestOf(FIRST_SCENARIO));
+      say("refused", refused?.kind === "refused" ? refused.sentence : "");
       return;
     }
     const [kind, id] = splitReference(first);
