@@ -71,10 +71,10 @@ def test_a_situation_is_taken_along_as_link_request_and_program(
         return text
 
     body = copied("REST").encode()
-    asked = Request(f"{service.url}/api/v1/plans", body, {"content-type": "application/json"})
-    with urlopen(asked) as answer:
+    url = f"{service.url}/api/v1/plans?include=flown"
+    with urlopen(Request(url, body, {"content-type": "application/json"})) as answer:
         plan = json.load(answer)
-    assert clock(plan["time_to_converge_s"]) == shown
+    assert clock(plan["flown"]["join_s"]) == shown
     said = StringIO()
     with redirect_stdout(said):
         exec(copied("Python"), {})
@@ -88,7 +88,9 @@ def test_a_situation_is_taken_along_as_link_request_and_program(
 
 def test_what_is_laid_out_is_flown(page: Page, watched: Watch) -> None:
     page.get_by_role("button", name="Beside").click()
-    expect(page.locator(".map-bench .headline-figure")).to_have_text("02:37")
+    expect(page.locator(".map-bench .headline-figure")).to_have_text("03:02")
+    expect(page.locator(".map-bench .headline-note")).to_have_text("ideal 02:37")
+    expect(page.locator(".map-bench .why")).to_contain_text("flies LRL in place of RSL: 26 s more")
     page.get_by_role("button", name="Fly it").click()
     expect(page.get_by_role("button", name="ARC", exact=True)).to_have_attribute(
         "aria-pressed", "true"
@@ -97,9 +99,115 @@ def test_what_is_laid_out_is_flown(page: Page, watched: Watch) -> None:
     expect(page.locator(".mode-name")).to_have_text("Proposed")
     expect(page).not_to_have_url(re.compile("own="))
     assert "flight=" in page.url
+    # it waits, with the time that the map gave
+    expect(page.locator(".headline-figure")).to_have_text("03:02")
+    page.wait_for_timeout(2000)
+    expect(page.locator(".headline-figure")).to_have_text("03:02")
+    page.keyboard.press("c")
+    expect(page.locator(".mode-name")).to_have_text("Armed")
+    page.keyboard.press("e")
+    expect(page.locator(".mode-name")).to_have_text("Converge")
+    page.go_back()
+    expect(page.locator(".map-bench .headline-figure")).to_have_text("03:02")
+    assert "own=" in page.url
+    page.go_forward()
+    expect(page.locator(".mode-name")).to_have_text("Converge")
     page.get_by_role("button", name="PLAN", exact=True).click()
     page.get_by_role("button", name="From the flight").click()
+    page.get_by_role("button", name="Undo").click()
     expect(page.get_by_role("spinbutton", name="Own ship: north")).to_have_value("12.0")
+    assert watched.complaints == []
+
+
+def test_a_typed_mistake_is_refused_in_a_sentence_and_changes_nothing(
+    page: Page, watched: Watch
+) -> None:
+    heading = page.get_by_role("spinbutton", name="Own ship: heading")
+    refusal = page.locator(".refusal:visible")
+    heading.press_sequentially("400")
+    heading.fill("400")
+    expect(refusal).to_have_text("400° is refused: 0 to 360° is right. 90° stays.")
+    heading.blur()
+    expect(heading).to_have_value("90")
+    least = page.get_by_role("spinbutton", name="Minimum separation")
+    least.fill("9")
+    expect(refusal.nth(1)).to_contain_text("since MIN is no more than D. 5.0 NM stays.")
+    least.fill("letters")
+    expect(refusal.nth(1)).to_contain_text('"letters" is no number')
+    least.blur()
+    expect(least).to_have_value("5.0")
+    heading.fill("120")
+    expect(refusal.nth(1)).to_have_count(0)
+    assert watched.complaints == []
+
+
+def test_a_drag_is_one_step_to_be_taken_back(page: Page, watched: Watch) -> None:
+    straight = page.get_by_role("spinbutton", name="Piece 1: straight for")
+    expect(straight).to_have_value("820")
+    drag(page, "turn", by=(-2.0, 0.0))
+    expect(straight).not_to_have_value("820")
+    dragged = straight.input_value()
+    to = page.get_by_role("spinbutton", name="Piece 2: to heading")
+    drag(page, "turn-heading", by=(0.0, -2.0))
+    expect(to).not_to_have_value("135")
+    page.keyboard.press("Control+z")
+    expect(to).to_have_value("135")
+    page.keyboard.press("Control+z")
+    expect(straight).to_have_value("820")
+    page.keyboard.press("Control+Shift+z")
+    expect(straight).to_have_value(dragged)
+    expect(page.get_by_role("button", name="Redo")).to_be_enabled()
+    assert watched.complaints == []
+
+
+@pytest.mark.parametrize(
+    ("link", "sentence"),
+    [
+        ("own=-9900000+0+90+240+25", "Own ship: east -9,900 km is refused"),
+        ("own=garbage", 'Own ship is "garbage", and 5 numbers are right.'),
+        ("distances=9000+12000", "D is 4.9 NM, and no less than MIN, 6.5 NM, is right."),
+    ],
+)
+def test_a_bad_link_says_what_is_wrong(page: Page, sky: Service, link: str, sentence: str) -> None:
+    parts = {
+        "own": "-40000+40000+90+240+25",
+        "leader": "0+0+90+200",
+        "distances": "10000+9260",
+    }
+    name, _, value = link.partition("=")
+    query = "&".join(f"{key}={text}" for key, text in {**parts, name: value}.items())
+    page.goto(f"{sky.url}/?plan&{query}")
+    expect(page.locator(".map-notice")).to_contain_text(sentence)
+
+
+def test_beyond_what_is_planned_no_area_is_asked_for(
+    page: Page, watched: Watch, sky: Service
+) -> None:
+    place = "own=-900000+0+90+240+25&leader=-600000+0+90+150&distances=10000+9260"
+    page.goto(f"{sky.url}/?plan&{place}")
+    expect(page.locator(".plan-map .nd-proposed")).to_be_attached()
+    for _ in range(4):
+        page.get_by_role("button", name="Range outward").click()
+    expect(page.get_by_text("AREA WITHIN 540 NM OF THE ORIGIN")).to_be_visible()
+    page.wait_for_timeout(1000)
+    assert watched.complaints == []
+
+
+def test_a_phone_has_the_times_and_what_flies_it_under_the_map(page: Page, watched: Watch) -> None:
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.get_by_role("button", name="A limit that binds").click()
+    expect(page.locator(".fly-times b")).to_have_text("06:11")
+    page.evaluate("scrollTo(0, 0)")
+    expect(page.locator(".fly-bar .primary")).to_be_in_viewport(ratio=1)
+    heights = page.locator(".map-bench .field input").evaluate_all(
+        "all => all.map(each => each.offsetHeight)"
+    )
+    assert min(heights) >= 44
+    sizes = page.locator(".plan-glass .nd-text").evaluate_all(
+        "all => all.filter(e => e.textContent).map(e => parseFloat(getComputedStyle(e).fontSize)"
+        " * e.ownerSVGElement.getScreenCTM().a)"
+    )
+    assert min(sizes) >= 11.0
     assert watched.complaints == []
 
 

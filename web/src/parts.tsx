@@ -35,7 +35,7 @@ export function AlarmLine({ numbers }: { numbers: Numbers }) {
   if (alarm === null) return null;
   return (
     <p class={`alarm ${alarm.level}`}>
-      <b>{alarm.text}</b> {separation} NM, minimum {minSeparation} NM
+      <b>{alarm.text}</b> {separation} NM, MIN {minSeparation}
     </p>
   );
 }

@@ -18,7 +18,7 @@ export const ELEMENTS: readonly Element[] = [
   element(
     "fma",
     "Modes",
-    "above in green what is engaged, below in cyan what comes next; a new one is boxed for 10 s",
+    "above in green what is engaged, below in cyan what comes next; a new one is boxed for 10 s; RG is relative guidance, SPD the speed that the crew selected, HDG its heading, AP1 the autopilot",
   ),
   element(
     "atc",
@@ -29,7 +29,7 @@ export const ELEMENTS: readonly Element[] = [
   element(
     "spacing",
     "Spacing",
-    "D to keep, d now, how fast it closes, offset from the leader's route, time to the join",
+    "D to keep, d now, CLS how fast that closes, XTK how far beside the leader's route, CNV time to the join",
   ),
   element(
     "timing",

@@ -117,3 +117,22 @@ test("who commands a flight that is no more reads what to do, and not what the s
   await vi.waitFor(() => expect(session.feedback.value.kind).toBe("refused"));
   expect(session.feedback.value).toMatchObject({ text: "This flight is over: start a new one." });
 });
+
+test("what stands at its beginning goes on for an acceptance, and stands again once it is taken", async () => {
+  const { asked, session, actions } = flying(new Response("", { status: 204 }));
+  const commands = () =>
+    asked.mock.calls.map(([, init]) => JSON.parse(init?.body as string).command);
+  amend(session.flight, { t: 0 });
+  session.flight.clock.value = { rate: 1, paused: true, ended: false };
+  actions.engage("armed");
+  await vi.waitFor(() => expect(commands()).toEqual(["set_engagement", "play"]));
+  const taken = { kind: "engagement_changed", t_s: 1, ident: "RG456", message: "" } as const;
+  amend(session.flight, {
+    engagement: { ...taken, engagement: "armed", previous: "designated" },
+  });
+  await vi.waitFor(() => expect(commands()).toEqual(["set_engagement", "play", "pause"]));
+  amend(session.flight, { t: 60 });
+  actions.engage("engaged");
+  await vi.waitFor(() => expect(commands()).toHaveLength(4));
+  expect(commands().at(-1)).toBe("set_engagement");
+});

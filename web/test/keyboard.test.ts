@@ -1,5 +1,7 @@
 import { describe, expect, test } from "vitest";
-import { isTaken, keyAction } from "../src/keyboard";
+import { isTaken, keyAction, stepAction } from "../src/keyboard";
+import { edit, putSituation } from "../src/map/editor";
+import { FIRST } from "../src/map/situation";
 import { createSession, stepRange } from "../src/session";
 import { createFlightStore } from "../src/store/flight";
 import { silentActions } from "./silence";
@@ -74,5 +76,26 @@ describe("the keys", () => {
     expect(from("button", " ")).toBe(true);
     expect(from("button", "a")).toBe(false);
     expect(from("div", "a", { ctrlKey: true })).toBe(true);
+  });
+
+  test("Ctrl-Z and its kin step through what was laid out, on the map and outside fields", () => {
+    const session = createSession(createFlightStore().flight);
+    const { map } = session;
+    putSituation(map, FIRST);
+    edit(map, (now) => ({ ...now, slot_distance_m: 20_000 }));
+    const press = (key: string, init: KeyboardEventInit = {}, tag = "div") => {
+      const event = new KeyboardEvent("keydown", { key, ctrlKey: true, ...init });
+      document.body.appendChild(document.createElement(tag)).dispatchEvent(event);
+      stepAction(event, session)?.();
+      return map.situation.value.slot_distance_m;
+    };
+    expect(press("z")).toBe(20_000); // the map is not shown
+    session.ndMode.value = "PLAN";
+    expect(press("z", {}, "input")).toBe(20_000);
+    expect(press("z")).toBe(FIRST.slot_distance_m);
+    expect(press("Z", { shiftKey: true })).toBe(20_000);
+    press("z");
+    expect(press("y")).toBe(20_000);
+    expect(press("z", { ctrlKey: false })).toBe(20_000);
   });
 });

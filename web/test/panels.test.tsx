@@ -3,9 +3,12 @@ import { act } from "preact/test-utils";
 import { afterEach, describe, expect, test, vi } from "vitest";
 import { Aircraft } from "../src/panels/aircraft";
 import { Alternatives } from "../src/panels/alternatives";
+import { Captions } from "../src/panels/captions";
+import { Engage } from "../src/panels/engage";
 import { Announcer, Events } from "../src/panels/events";
 import { FlightControls } from "../src/panels/flight-controls";
 import { Header } from "../src/panels/header";
+import { Help } from "../src/panels/help";
 import { LeaderControls } from "../src/panels/leader-controls";
 import { OutageNotice } from "../src/panels/outage";
 import { PlanNumbers } from "../src/panels/plan";
@@ -152,6 +155,93 @@ describe("panels", () => {
     expect(place.textContent).toContain("LOST");
   });
 
+  test.each([
+    ["lost", { separation_m: 3 * NM, least_separation_m: 3 * NM }, [], "alert", "SEPARATION"],
+    ["predicted", {}, [alert(1)], "caution", "SEP IN 45 S"],
+  ] as const)("separation that is %s is said in both panels, in words and in colour", (...row) => {
+    const [, changes, alerts, level, text] = row;
+    const { store, session, actions } = flying();
+    store.receive(tick(1, [...alerts, sample(1, changes)]), 1000);
+    render(
+      <>
+        <PlanNumbers session={session} />
+        <Aircraft session={session} actions={actions} />
+        <Captions session={session} />
+      </>,
+      place,
+    );
+    for (const panel of ["plan", "aircraft"]) {
+      expect(place.querySelector(`.${panel}.${level} .alarm b`)?.textContent).toBe(text);
+    }
+    const now = [...place.querySelectorAll(".reading")].find((each) =>
+      each.textContent?.startsWith("d now"),
+    );
+    expect(now?.querySelector(".figure")?.classList.contains(level)).toBe(true);
+    if (level === "alert")
+      expect(place.querySelector(".headline.lost .headline-figure")?.textContent).toBe("3.0");
+    // the first steps do not talk over it
+    expect(place.querySelector(".first-minute")).toBeNull();
+  });
+
+  test("a leader that is not heard of has no numbers, and no intent, in any panel", () => {
+    const { store, session, actions } = flying();
+    const silent = { leader_age_s: 15, mode: "heading", engagement: "designated" } as const;
+    store.receive(tick(15, [sample(15, silent)]), 1000);
+    render(
+      <>
+        <PlanNumbers session={session} />
+        <Aircraft session={session} actions={actions} />
+        <LeaderControls session={session} actions={actions} />
+        <Engage session={session} actions={actions} />
+      </>,
+      place,
+    );
+    const rows = [...place.querySelectorAll(".states tbody tr")];
+    expect(rows.map((row) => row.querySelector("td:last-child")?.textContent)).toEqual(
+      rows.map(() => "––"),
+    );
+    expect(rows[0]?.querySelector("td")?.textContent).toBe("090");
+    const text = place.textContent ?? "";
+    expect(text).toContain("Leader intentunknown");
+    expect(place.querySelector(".panel.leader")?.textContent).not.toMatch(/now \d/);
+    expect(text).toContain("The autopilot holds the heading");
+    expect(text).not.toContain("You fly");
+  });
+
+  test("heard of again, the leader is proposed a path to, and the two steps to engage are said", () => {
+    const { store, session, actions } = flying();
+    const { kind: _, reason: __, announced: ___, tube_m: ____, ...plan } = planChanged(40);
+    const dropped = { kind: "engagement_changed", t_s: 31, ident: OWN, message: "." } as const;
+    store.receive(
+      tick(40, [
+        { ...dropped, previous: "engaged", engagement: "designated" },
+        { ...plan, kind: "plan_proposed", others: [] },
+        sample(40, { mode: "heading", engagement: "designated" }),
+      ]),
+      1000,
+    );
+    render(<Engage session={session} actions={actions} />, place);
+    expect(place.textContent).toContain(
+      "at 00:31. Two steps engage it again: Accept, then Engage.",
+    );
+    expect(session.shown.picture.value.notices[0]?.text).toBe("RG WAS ON – ACCEPT, ENGAGE");
+  });
+
+  test("the first steps end with the join: they say what to try, and close", () => {
+    vi.useFakeTimers();
+    const { store, session } = flying();
+    act(() => render(<Captions session={session} />, place));
+    expect(place.textContent).toContain("Green will be flown");
+    act(() => store.receive(tick(250, [sample(250, { mode: "follow", joined: true })]), 1000));
+    expect(place.textContent).toContain("5 of 5Done");
+    act(() => {
+      vi.advanceTimersByTime(60_000);
+    });
+    expect(session.captions.value).toBe(false);
+    expect(place.textContent).toBe("");
+    vi.useRealTimers();
+  });
+
   test("without a plan the reason is shown and announced", () => {
     const { store, session } = flying();
     store.receive(tick(1, [noPlan(1), sample(1)]), 1000);
@@ -257,10 +347,20 @@ describe("panels", () => {
       { name: "fig_6b", title: "Fig. 6b", description: "Known.", available: true, message: "" },
       { name: "rec", title: "Recorded", description: "", available: false, message: "Install it." },
     ];
-    render(<ScenarioPicker session={session} actions={actions} />, place);
+    session.helpOpen.value = true;
+    render(
+      <>
+        <ScenarioPicker session={session} actions={actions} />
+        <Help session={session} />
+      </>,
+      place,
+    );
     const options = [...place.querySelectorAll("option")];
     expect(options.map((each) => each.disabled)).toEqual([false, true]);
-    expect(place.textContent).toContain("Install it.");
+    expect(place.querySelector(".scenario")?.textContent).toContain("see Help");
+    expect(place.querySelector(".help")?.textContent).toContain(
+      "Recorded is not available. Install it.",
+    );
     const picker = place.querySelector("select");
     act(() => {
       picker?.dispatchEvent(new Event("change", { bubbles: true }));

@@ -125,7 +125,7 @@ export function planCard(changes: Partial<PlanCard> = {}): PlanCard {
     planner: "exact",
     word: "RS",
     time_to_converge_s: 250,
-    length_m: 25000,
+    length_m: 60_000, // at the speed of the samples
     segments: [turn, straight(turn.end, 250 - turn.duration_s, 100)],
     separation: { least_m: 10000, at_s: 250, proved_above_m: 9999 },
     optimality: { proof: "relaxation", lower_bound_s: 250 },

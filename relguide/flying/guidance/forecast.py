@@ -150,11 +150,13 @@ def rows_to_draw(rows: FloatArray) -> list[int]:
     Args:
         rows: a second apart. shape (n, 7), as `Body`
     """
-    kept = [0]
-    for k in range(1, len(rows) - 1):
-        if abs(rows[k, 2] - rows[kept[-1], 2]) > BENT or k - kept[-1] >= STRAIGHT_FOR:
+    headings: list[float] = rows[:, 2].tolist()
+    kept, last = [0], 0
+    for k in range(1, len(headings) - 1):
+        if abs(headings[k] - headings[last]) > BENT or k - last >= STRAIGHT_FOR:
             kept.append(k)
-    kept.append(len(rows) - 1)
+            last = k
+    kept.append(len(headings) - 1)
     return kept
 
 

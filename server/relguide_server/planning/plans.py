@@ -125,7 +125,7 @@ class BatchQuery(BaseModel):
         "along the minimum separation that takes seconds more than `max_ms`. `flown`: the flight "
         "that guidance makes of it, engaged at once: rolls, a berth beside the minimum "
         "separation and braking included.",
-        examples=["alternatives,optimality"],
+        examples=["alternatives,optimality", "flown"],
         json_schema_extra={"pattern": INCLUDES},
     )
     max_ms: float = Field(

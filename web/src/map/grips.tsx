@@ -5,7 +5,8 @@ import type { LayerProps } from "../nd/layer";
 import { ink } from "../nd/style";
 import { type Point, placeAt, project, round } from "../nd/view";
 import type { Editor } from "./editor";
-import { type HandleName, handlePoint, handlesOf, sayHandle } from "./handles";
+import { type HandleName, handlePoint, handlesOf } from "./handles";
+import { sayHandle } from "./say-handle";
 import { firstTurn } from "./turn-handles";
 
 /** What may be touched: 24 px of the page and more, however small the glass. */

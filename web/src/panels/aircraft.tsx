@@ -67,21 +67,24 @@ export function Aircraft(props: { session: Session; actions: Actions }) {
         <b>{sample === null ? "" : `${commandedSpeed} kt`}</b>
       </p>
       {sample !== null && !isGuided && (
-        <Dial
-          label="Own heading"
-          unit="°"
-          value={heading.value ?? sample.pursuer.heading_deg}
-          digits={3}
-          correct={(value) => Number(formatHeading(value))}
-          change={(value) => {
-            heading.value = value;
-          }}
-          most={360}
-          commit={(value) => {
-            props.actions.ownHeading(value);
-            heading.value = null;
-          }}
-        />
+        <div class="row labelled heading-dial">
+          <span aria-hidden="true">Select</span>
+          <Dial
+            label="Own heading"
+            unit="°"
+            value={heading.value ?? sample.pursuer.heading_deg}
+            digits={3}
+            correct={(value) => Number(formatHeading(value))}
+            change={(value) => {
+              heading.value = value;
+            }}
+            most={360}
+            commit={(value) => {
+              props.actions.ownHeading(value);
+              heading.value = null;
+            }}
+          />
+        </div>
       )}
     </Panel>
   );

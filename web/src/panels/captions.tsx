@@ -7,7 +7,7 @@ import type { Session } from "../session";
 import type { Guidance } from "../store/states";
 
 const CAPTIONS = [
-  "The white arrowhead is the leader; you are the yellow aircraft. Click the leader, or press D: it is to be joined.",
+  "You are the yellow aircraft: join the white one in the least time, never closer than the minimum. Click it, or press D.",
   "Dashed yellow leads to its slot: CNV says in what time, the dotted circle how close you come. Accept it, or press C.",
   "Dashed cyan: accepted, and not flown yet. Engage it, or press E.",
   "Green will be flown. The gate with the pennant is the slot, D behind the leader. ×10 makes it faster.",

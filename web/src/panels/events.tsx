@@ -24,8 +24,9 @@ const KIND_NAMES: Record<Message["kind"], string> = {
 export function Events(props: { session: Session }) {
   const { messages } = props.session.flight.read.value;
   return (
-    <Panel name="events" title="Events" scrolls>
-      <ol class="log">
+    <Panel name="events" title="Events">
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
+      <ol class="log" tabIndex={0} aria-label="Events, the newest first">
         {messages.map((message) => (
           <li key={`${message.t} ${message.text}`} class={message.kind}>
             <time>{formatClock(message.t)}</time>

@@ -3,7 +3,8 @@
 import type { ComponentChildren } from "preact";
 import { Icon } from "../parts";
 import type { Session } from "../session";
-import type { Connection, Flight } from "../store/types";
+import { clockShown } from "../store/states";
+import type { Connection } from "../store/types";
 
 const CONNECTION_TEXT: Record<Connection, string> = {
   connecting: "Connecting",
@@ -18,9 +19,12 @@ export function Header(props: { session: Session; children?: ComponentChildren }
     <header class="top">
       <h1>
         <img src="/favicon.svg" alt="" width="26" height="26" />
-        relguide
+        <span class="word">relguide</span>
       </h1>
-      <div class="top-middle">{props.children}</div>
+      <div class="top-middle">
+        {props.children}
+        <p class="purpose">Join another aircraft in the least time, never too close to it.</p>
+      </div>
       <SimClock session={props.session} />
       <ConnectionState session={props.session} />
       <button
@@ -44,7 +48,7 @@ export function Header(props: { session: Session; children?: ComponentChildren }
         }}
       >
         <Icon name="records" />
-        Records
+        <span class="word">Records</span>
       </button>
       <button
         type="button"
@@ -55,7 +59,7 @@ export function Header(props: { session: Session; children?: ComponentChildren }
         }}
       >
         <Icon name={sound.value ? "sound" : "silence"} />
-        Sound
+        <span class="word">Sound</span>
       </button>
       <button
         type="button"
@@ -67,7 +71,7 @@ export function Header(props: { session: Session; children?: ComponentChildren }
         }}
       >
         <Icon name="help" />
-        Help
+        <span class="word">Help</span>
       </button>
     </header>
   );
@@ -75,7 +79,7 @@ export function Header(props: { session: Session; children?: ComponentChildren }
 
 function SimClock(props: { session: Session }) {
   const { flight, shown } = props.session;
-  const { rate, paused, ended } = clockOf(flight);
+  const { rate, paused, ended } = clockShown(flight);
   return (
     <p class="sim">
       <span class="sim-label">SIM</span>
@@ -84,13 +88,6 @@ function SimClock(props: { session: Session }) {
       <span class="sim-state">{ended ? "ENDED" : paused ? "PAUSED" : ""}</span>
     </p>
   );
-}
-
-/** The clock of what is shown: the flight's, or the page's own. */
-function clockOf({ source, clock }: Flight): { rate: number; paused: boolean; ended: boolean } {
-  if (source.value.kind === "live") return clock.value;
-  const { rate } = source.value;
-  return { rate: rate === 0 ? 1 : rate, paused: rate === 0, ended: false };
 }
 
 function ConnectionState(props: { session: Session }) {

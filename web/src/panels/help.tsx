@@ -26,7 +26,8 @@ const KEYS: readonly (readonly [string, string])[] = [
 ];
 
 export function Help(props: { session: Session }) {
-  const { helpOpen, letterKeys, distinctColours, captions } = props.session;
+  const { helpOpen, letterKeys, distinctColours, captions, scenarios } = props.session;
+  const missing = scenarios.value.filter(({ available }) => !available);
   const dialog = useRef<HTMLDivElement>(null);
   const isOpen = helpOpen.value;
   // The focus goes into the dialog, and back to where it was.
@@ -70,6 +71,15 @@ export function Help(props: { session: Session }) {
           </li>
         ))}
       </ul>
+      <p>
+        A path is named by its pieces: S straight, L and R a turn to the left or right, B along the
+        minimum round the leader. SRSR is straight, right, straight, right.
+      </p>
+      {missing.map(({ name, title, message }) => (
+        <p key={name}>
+          <b>{title}</b> is not available. {message}
+        </p>
+      ))}
       <Switch text="Single letters are keys" choice={letterKeys} />
       <Switch text="Colours that anybody can tell apart" choice={distinctColours} />
       <Switch text="Captions for a first minute" choice={captions} />

@@ -90,7 +90,7 @@ function Headline(props: {
       </div>
     );
   }
-  const tone = alarm?.level ?? "";
+  const tone = alarm === null ? "" : { alert: "lost", caution: "nearing" }[alarm.level];
   return (
     <div class={`headline ${tone}`}>
       <span class="headline-label">{props.isJoined ? "Joined" : "Separation"}</span>

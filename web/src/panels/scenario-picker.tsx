@@ -1,11 +1,10 @@
-/** Which scenario is flown; choosing another starts it. One that cannot be flown says why. */
+/** Which scenario is flown; choosing another starts it. Why one cannot be flown stands in Help. */
 
 import type { Actions, Session } from "../session";
 
 export function ScenarioPicker(props: { session: Session; actions: Actions }) {
   const { scenarios, status } = props.session;
   const flown = status.value?.scenario ?? "";
-  const missing = scenarios.value.filter((scenario) => !scenario.available);
   return (
     <div class="scenario">
       <label>
@@ -17,23 +16,11 @@ export function ScenarioPicker(props: { session: Session; actions: Actions }) {
           {scenarios.value.map((scenario) => (
             <option key={scenario.name} value={scenario.name} disabled={!scenario.available}>
               {scenario.title}
-              {scenario.available ? "" : " (not available)"}
+              {scenario.available ? "" : " (not available: see Help)"}
             </option>
           ))}
         </select>
       </label>
-      {missing.length > 0 && (
-        <details class="missing">
-          <summary>{missing.length} not available: why?</summary>
-          <div>
-            {missing.map((scenario) => (
-              <p key={scenario.name}>
-                <b>{scenario.title}</b> {scenario.message}
-              </p>
-            ))}
-          </div>
-        </details>
-      )}
     </div>
   );
 }

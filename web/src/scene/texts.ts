@@ -8,6 +8,7 @@ import { SEPARATION } from "../nd/style";
 import type { Box, Point } from "../nd/view";
 import type { Colour } from "../store/colours";
 import { forecastIndex, pointsAfter } from "../store/forecast";
+import type { Notice } from "../store/notices";
 import type { PairSample } from "../store/pair";
 import type { Picture, Shown } from "../store/picture";
 import { formatLevel, formatMiles, NM } from "../units";
@@ -145,6 +146,7 @@ export function aroundTexts(shown: Shown, camera: Camera, size: Size): Surroundi
     return point === null ? [] : [square(point, half)];
   };
   const boxes = [
+    ...(warningOf(picture) === null ? [] : [warningBox(size)]),
     ...box(now.pursuer, 0.8 * reachOf(glass, now.pursuer, now)),
     ...(leader === null ? [] : box(leader, 0.8 * reachOf(glass, leader, now))),
     ...(join === null ? [] : box({ ...join, altitude_m }, 6)),
@@ -162,6 +164,16 @@ export function aroundTexts(shown: Shown, camera: Camera, size: Size): Surroundi
       : gateEdges(now.slot, now.leader.altitude_m, drawnLength(now.separation_m), "open")),
   ]);
   return { isSeen, boxes, points };
+}
+
+/** The most urgent warning or caution, in the words of the navigation display. */
+export function warningOf({ notices: [first] }: Picture): Notice | null {
+  return first?.level === "warning" || first?.level === "caution" ? first : null;
+}
+
+/** Where it stands: over the middle of the picture's upper edge. */
+function warningBox({ width }: Size): Box {
+  return { x: width / 2 - 100, y: 0, width: 200, height: 36 };
 }
 
 /** The path ahead, the leader's route, and where both have been. */

@@ -16,7 +16,7 @@ import { NOTICE_COLOUR } from "../store/notices";
 import type { Shown } from "../store/picture";
 import { ALTITUDE_SCALE, type Camera, enlargement } from "./camera";
 import type { Size } from "./glass";
-import { aroundTexts, northOf, TEXTS, textsOf } from "./texts";
+import { aroundTexts, northOf, TEXTS, textsOf, warningOf } from "./texts";
 
 const NO_LABELS: ReadonlyMap<string, Label> = new Map();
 const ARROW = "M0 12V-12M-5 -5L0 -13L5 -5";
@@ -102,12 +102,9 @@ function useSettled(camera: ReadonlySignal<Camera | null>): ReadonlySignal<numbe
   return count;
 }
 
-/** The most urgent warning or caution, in the words of the navigation display. */
+/** What must not be missed, over the picture. */
 function Warning({ shown }: { shown: Shown }) {
-  const notice = useComputed(() => {
-    const [first] = shown.picture.value.notices;
-    return first?.level === "warning" || first?.level === "caution" ? first : null;
-  });
+  const notice = useComputed(() => warningOf(shown.picture.value));
   if (notice.value === null) return null;
   const { text, level } = notice.value;
   return (

@@ -52,7 +52,7 @@ function stateSentence(flight: Moment, state: Guidance): string {
   const ident = flight.started?.leader.ident ?? "The leader";
   switch (state) {
     case "off":
-      return flight.engagement === null ? "" : "Relative guidance is off.";
+      return flight.engagement?.engagement === "off" ? "Relative guidance is off." : "";
     case "designated":
       return `${ident} is designated: a path to its slot is looked for.`;
     case "proposed":
@@ -87,10 +87,11 @@ function assertiveOf(flight: Moment): string {
   const outlook = separation(flight).state;
   const minimum = `${formatMiles(flight.started?.min_separation_m ?? 0)} nautical miles`;
   const wasLost = [flight.belowAt, flight.lost?.t_s].some((t) => isRecent(flight, t, HELD));
-  if (outlook === "lost" || wasLost)
-    sentences.push(`Separation: closer than ${minimum}.${causeOf(flight)}`);
+  const isLost = outlook === "lost" || wasLost;
+  if (isLost) sentences.push(`Separation: closer than ${minimum}.${causeOf(flight)}`);
   for (const alert of flight.alerts)
-    if (alert.level !== "advisory") sentences.push(alertSentence(alert));
+    if (alert.level !== "advisory" && !(isLost && isOfLoss(alert)))
+      sentences.push(alertSentence(alert));
   const seconds = leaderAge(flight);
   if (state === "data_lost")
     sentences.push(
@@ -104,6 +105,11 @@ function assertiveOf(flight: Moment): string {
   if (why !== undefined && state !== "off" && state !== "data_lost")
     sentences.push(`Unable: ${startLower(inPageUnits(why))}`);
   return sentences.join(" ");
+}
+
+/** Whether an alert says of a loss what is said already. */
+function isOfLoss({ level, subject }: Alert): boolean {
+  return level === "warning" && subject === "separation";
 }
 
 /** Why the separation was lost, if that was said of this loss. */

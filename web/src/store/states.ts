@@ -3,7 +3,7 @@
 import { KT } from "../units";
 import type { PlanChanged } from "../wire";
 import type { PairSample } from "./pair";
-import type { Moment } from "./types";
+import type { Flight, Moment } from "./types";
 
 /**
  * off: nobody is to be joined; designated: a path is looked for; proposed, armed: there is one, accepted
@@ -139,4 +139,11 @@ export function separation(flight: Moment): Outlook {
   if (alert === undefined) return { state: "kept", within: 0 };
   const within = Math.max(0, Math.round(alert.predicted_at_s - flight.t));
   return { state: "predicted", within };
+}
+
+/** The clock of what is shown: the flight's, or the page's own. */
+export function clockShown({ source, clock }: Flight): Flight["clock"]["value"] {
+  if (source.value.kind === "live") return clock.value;
+  const { rate } = source.value;
+  return { rate: rate === 0 ? 1 : rate, paused: rate === 0, ended: false };
 }

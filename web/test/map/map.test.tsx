@@ -5,16 +5,10 @@ import { areaLabels } from "../../src/map/area";
 import { MapBench } from "../../src/map/bench";
 import { createEditor, edit, halfExtent, putSituation, zoom } from "../../src/map/editor";
 import { situationOf } from "../../src/map/from-flight";
-import {
-  dragHandle,
-  HANDLES,
-  handlePoint,
-  handlesOf,
-  keyHandle,
-  sayHandle,
-} from "../../src/map/handles";
+import { dragHandle, HANDLES, handlePoint, handlesOf, keyHandle } from "../../src/map/handles";
 import { labelPlace } from "../../src/map/label-place";
 import { mapView, PlanMap } from "../../src/map/map";
+import { sayHandle } from "../../src/map/say-handle";
 import { FIRST, settle } from "../../src/map/situation";
 import { firstTurn } from "../../src/map/turn-handles";
 import { chooseLabels } from "../../src/nd/labelled";

@@ -123,8 +123,10 @@ test("a loss of separation is said with its cause while it lasts, and is over wi
   expect(spoken(flight).assertive).toBe(
     "Separation: closer than 5.0 nautical miles. The leader turned towards own ship.",
   );
+  amend(flight, { alerts: [alert(T, { level: "warning", message: "4.3 NM, less than 5.0 NM." })] });
+  expect(spoken(flight).assertive).not.toContain("4.3");
   change(flight, { separation_m: 12_000 });
-  amend(flight, { t: T + 20 });
+  amend(flight, { t: T + 20, alerts: [] });
   expect(spoken(flight).assertive).toBe("");
 });
 
