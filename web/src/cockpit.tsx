@@ -2,7 +2,7 @@
 
 import { type Signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { FIGURES } from "./compare/opening";
+import { FIGURES } from "./compare/references";
 import { late } from "./late";
 import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
