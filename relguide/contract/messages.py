@@ -49,7 +49,7 @@ from relguide.flying.plan_documents import (
     PathSegment,
     PlanCard,
 )
-from relguide.flying.verdicts import OptimalityCheck
+from relguide.flying.verdicts import OptimalityCheck, PlannerVerdict
 from relguide.planning.limits import SPACING
 
 Extra = Literal["forbid", "ignore"]
@@ -276,6 +276,13 @@ class Tick(Strict):
     ended: bool
     documents: list[DocumentModel]
     """Since the last tick, in order; of several samples only the newest."""
+
+
+class PlannerComparison(Strict):
+    """What planners would fly in one situation."""
+
+    planners: list[model_of(PlannerVerdict)]  # type: ignore[valid-type]
+    """`exact`, `network`, `regular_dp` and `printed_network`, in this order."""
 
 
 class ScenarioInfo(Strict):

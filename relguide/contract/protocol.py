@@ -13,6 +13,7 @@ from relguide.contract.messages import (
     FlightRequest,
     PathSegmentModel,
     PlanAnswer,
+    PlannerComparison,
     ReferenceModel,
     ScenarioList,
     Tick,
@@ -29,6 +30,7 @@ from relguide.flying.documents import (
     UnableReason,
 )
 from relguide.flying.plan_documents import Direction
+from relguide.flying.verdicts import ComparedPlanner, Verdict
 from relguide.planning.plan import Proof, Reason
 
 _ALIASES: dict[str, tuple[Any, str]] = {
@@ -55,6 +57,8 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "AlertState": (AlertState, "The highest level among the alerts that stand."),
     "AlertSubject": (AlertSubject, "What an alert is about."),
     "UnableReason": (UnableReason, "Why guidance cannot do what it is to do."),
+    "ComparedPlanner": (ComparedPlanner, "A planner that is compared with others."),
+    "Verdict": (Verdict, "Whether a planner's own path may be flown."),
     "Fault": (Fault, "What is wrong with a planner's plan."),
     "Reason": (Literal[tuple(r.value for r in Reason)], "Why there is no plan."),
     "PathSegment": (PathSegmentModel, "A piece of a path over the ground."),
@@ -66,7 +70,9 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "FlightRequest": (FlightRequest, "A request for a new flight."),
     "Command": (Command, "A command to a flight."),
 }
-_ROOTS = (Tick, SituationBody, ScenarioList, FlightList, AreaRequest, AreaAnswer)
+_ROOTS = (
+    Tick, SituationBody, ScenarioList, FlightList, AreaRequest, AreaAnswer, PlannerComparison,
+)  # fmt: skip
 
 
 def typescript_body(*, docs: bool) -> str:

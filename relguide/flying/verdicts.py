@@ -172,6 +172,7 @@ class PlannerVerdict:
     """What one planner would fly in a situation, and what is wrong with that."""
 
     planner: ComparedPlanner
+    """Who finds it."""
     status: Verdict
     """Whether its own path may be flown."""
     message: str

@@ -11,7 +11,6 @@ import {
   readRecord,
 } from "./api";
 import { referencesIn, splitReference } from "./compare/references";
-import { fly, followMode, layOut, mapFromFlight } from "./map/flying";
 import type { Actions, Recording, Session } from "./session";
 import type { FlightStore } from "./store/flight";
 import type { Guidance } from "./store/states";
@@ -92,7 +91,7 @@ export function createActions(
     const joined = address.get("flight");
     void loadScenarios();
     if (address.has("plan")) {
-      layOut(session, address);
+      (await import("./map/room")).layOut(session, address);
       isGrounded = joined === null;
       if (isGrounded) return;
     }
@@ -248,7 +247,11 @@ export function createActions(
     const { doing, done } = ENGAGING.armed;
     untracked(() => void command({ command: "pause" }, doing, done));
   });
-  followMode(session);
+  // What the map needs is fetched when it is first shown.
+  effect(() => {
+    if (session.ndMode.value === "PLAN")
+      void import("./map/room").then((map) => map.openMap(session));
+  });
   // Whoever leaves the map without a flight sees the one that a page begins with.
   effect(() => {
     if (session.ndMode.value === "PLAN" || !isGrounded) return;
@@ -448,8 +451,8 @@ export function createActions(
       if (again !== null) clearTimeout(again);
       attempt();
     },
-    fly: () => fly(session, begin),
-    mapFromFlight: () => mapFromFlight(session),
+    fly: () => void import("./map/room").then((map) => map.fly(session, begin)),
+    mapFromFlight: () => void import("./map/room").then((map) => map.mapFromFlight(session)),
     reload: () => location.reload(),
     ...own.moves,
     openRecord(id) {

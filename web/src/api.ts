@@ -8,6 +8,7 @@ import type {
   FlightStatus,
   OtherPathCard,
   PlanAnswer,
+  PlannerComparison,
   ScenarioInfo,
   ScenarioList,
   SituationBody,
@@ -84,6 +85,11 @@ export async function flyScenario(name: string): Promise<Answer<Blob>> {
   } catch {
     return { kind: "refused", status: 0, sentence: "The server does not answer." };
   }
+}
+
+/** What each planner would fly. */
+export function comparePlanners(situation: SituationBody): Promise<Answer<PlannerComparison>> {
+  return request("POST", `${ROOT}/plans/compare`, situation);
 }
 
 /** Regions of words and lines of equal time. */

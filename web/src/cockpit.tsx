@@ -2,7 +2,6 @@
 
 import { type Signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { FIGURES } from "./compare/references";
 import { late } from "./late";
 import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
@@ -19,7 +18,7 @@ import { LeaderControls } from "./panels/leader-controls";
 import { OutageNotice } from "./panels/outage";
 import { PlanNumbers } from "./panels/plan";
 import { ScenarioPicker } from "./panels/scenario-picker";
-import { Scene } from "./scene/scene";
+import { set } from "./parts";
 import type { Actions, Session } from "./session";
 import { Timeline } from "./timeline/timeline";
 
@@ -31,6 +30,11 @@ const SMALL = "(max-width: 999px)";
 const MapBench = late(async () => (await import("./map/bench")).MapBench, "The map is on its way.");
 const PlanMap = late(async () => (await import("./map/map")).PlanMap, "The map is on its way.");
 const UnderMap = late(async () => (await import("./map/under-map")).UnderMap, "");
+const PlannersPanel = late(
+  async () => (await import("./panels/planners")).PlannersPanel,
+  "The planners are on their way.",
+);
+const Scene = late(async () => (await import("./scene/scene")).Scene, "The scene is on its way.");
 const Help = late(async () => (await import("./panels/help")).Help, "");
 const Charts = late(
   async () => (await import("./charts/charts")).Charts,
@@ -48,9 +52,6 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
     <>
       <Header session={session}>
         <ScenarioPicker session={session} actions={actions} />
-        <button type="button" onClick={() => actions.compare(...FIGURES)}>
-          Fig. 6a beside 6b
-        </button>
         <FirstStart readiness={session.firstStart} />
       </Header>
       <main class={session.sceneMaximised.value ? "maximised" : ""}>
@@ -110,12 +111,12 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
               <div class="column numbers">
                 {!small.value && <Engage session={session} actions={actions} />}
                 <PlanNumbers session={session} />
-                {narrow.value && <Alternatives session={session} />}
+                {narrow.value && <Others session={session} />}
               </div>
               {!narrow.value && (
                 <div class="column lists">
                   <Aircraft session={session} actions={actions} />
-                  <Alternatives session={session} />
+                  <Others session={session} />
                 </div>
               )}
             </div>
@@ -127,6 +128,16 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
       {session.recordsOpen.value && <Records session={session} actions={actions} />}
       <Announcer session={session} />
     </>
+  );
+}
+
+/** The other paths of the planner that flies, or what other planners would fly. */
+function Others({ session }: { session: Session }) {
+  const { isOpen } = session.planners;
+  return isOpen.value ? (
+    <PlannersPanel session={session} />
+  ) : (
+    <Alternatives session={session} compare={set(isOpen, true)} />
   );
 }
 

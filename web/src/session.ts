@@ -4,6 +4,7 @@ import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
 import { type Comparison, createComparison } from "./compare/compared";
 import { createEditor, type Editor } from "./map/editor";
+import { createPlanners, type Planners } from "./planners";
 import { createHistory, type History } from "./store/history";
 import { createShown, type Shown } from "./store/picture";
 import type { Flight } from "./store/types";
@@ -71,6 +72,8 @@ export interface Session {
   readonly comparison: Comparison;
   /** Whether the flight is drawn over time in the scene's place. */
   readonly chartsOpen: Signal<boolean>;
+  /** Four planners side by side. */
+  readonly planners: Planners;
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
@@ -140,6 +143,7 @@ export function createSession(
   history: () => History = createHistory,
 ): Session {
   const comparison = createComparison(flight, history);
+  const planners = createPlanners();
   return {
     flight,
     history,
@@ -147,8 +151,9 @@ export function createSession(
     replayRate: signal(1),
     timeRefusal: signal(""),
     recordsOpen: signal(false),
-    shown: createShown(flight, comparison.ghost),
+    shown: createShown(flight, comparison.ghost, planners.rivals),
     comparison,
+    planners,
     chartsOpen: signal(false),
     scenarios: signal([]),
     status: signal(null),

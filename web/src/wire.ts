@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-f71472323faf";
+export const PROTOCOL = "relguide-e40f07ef4709";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -58,6 +58,12 @@ export type AlertSubject = "separation" | "spacing" | "speed" | "data" | "geomet
 
 /** Why guidance cannot do what it is to do. */
 export type UnableReason = "separation" | "speed" | "geometry" | "envelope" | "data";
+
+/** A planner that is compared with others. */
+export type ComparedPlanner = "exact" | "network" | "regular_dp" | "printed_network";
+
+/** Whether a planner's own path may be flown. */
+export type Verdict = "planned" | "refused" | "handed_over" | "no_plan" | "preparing";
 
 /** What is wrong with a planner's plan. */
 export type Fault =
@@ -948,6 +954,36 @@ export interface PlanUnavailable {
   /** The pursuer's. */
   ident: string;
   answer: NoPlanCard;
+}
+
+/** What planners would fly in one situation. */
+export interface PlannerComparison {
+  planners: PlannerVerdict[];
+}
+
+/** What one planner would fly in a situation, and what is wrong with that. */
+export interface PlannerVerdict {
+  /** Whether its own path may be flown. */
+  status: Verdict;
+  /** Who finds it. */
+  planner: ComparedPlanner;
+  /** The same in a sentence, with what is wrong or how good it is. */
+  message: string;
+  /** Its letters; empty where it has no path. */
+  word: string;
+  /** When its path ends; 0 as above. */
+  time_to_converge_s: number;
+  /**
+   * How much later than the exact plan that is; below 0 for a path that may not be flown. 0 where
+   * either has none.
+   */
+  over_exact_s: number;
+  /** Least separation on it; 0 where it has no path. */
+  least_m: number;
+  /** How long it takes to find, once all that it needs is loaded. */
+  compute_ms: number;
+  /** The path, in the order flown. */
+  segments: PathSegment[];
 }
 
 /** Continue the flight. */

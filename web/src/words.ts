@@ -121,6 +121,12 @@ export const ELEMENTS: readonly Element[] = [
     "key-dotted",
   ),
   element(
+    "rivals",
+    "What other planners fly",
+    "dotted, the chosen one dashed; amber: it may not be flown",
+    "key-dotted",
+  ),
+  element(
     "fan",
     "Joins if it turns",
     "dotted, a hollow diamond at each end: where and when own ship joins if the leader, whose intent is not known, turns by 10°, 20° or 30° now",

@@ -1,5 +1,6 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
+import { COLOURS } from "../src/picture/palettes";
 
 function tokensOf(file: string): [string, string][] {
   const text = readFileSync(`src/styles/${file}.css`, "utf8");
@@ -129,4 +130,9 @@ describe("contrast", () => {
       expect(contrast(token(name), token(ground))).toBeGreaterThan(3);
     }
   });
+});
+
+test.each(Object.entries(COLOURS.light))("%s reads on paper", (name, colour) => {
+  if (name !== "glass" && name !== "halo")
+    expect(contrast(colour, COLOURS.light.glass)).toBeGreaterThanOrEqual(4.5);
 });

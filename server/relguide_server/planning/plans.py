@@ -12,9 +12,8 @@ from starlette.responses import Response, StreamingResponse
 from relguide.contract.answers import INCLUDABLE, Form, read_include
 from relguide.contract.bodies import NamedSituationBody, SituationBody
 from relguide.contract.bulk import refused_line
-from relguide.contract.messages import PlanAnswer, model_of
+from relguide.contract.messages import PlanAnswer, PlannerComparison, model_of
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
-from relguide.flying.verdicts import PlannerVerdict
 from relguide_server.http.bodies import (
     GEOJSON,
     JSON,
@@ -90,14 +89,6 @@ class PlanFeatures(BaseModel):
     type: Literal["FeatureCollection"] = Field(description="Always the same.")
     features: list[dict[str, Any]] = Field(description="None where there is no plan.")
     status: Literal["planned", "no_plan"] = Field(description="Whether there is a plan.")
-
-
-class PlannerComparison(BaseModel):
-    """What planners would fly in one situation."""
-
-    planners: list[model_of(PlannerVerdict)] = Field(  # type: ignore[valid-type]
-        description="`exact`, `network`, `regular_dp` and `printed_network`, in this order."
-    )
 
 
 _ID: dict[str, Any] = {"id": (str | int, Field(default="", description="As in the request."))}

@@ -2,13 +2,14 @@
 
 import gzip
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
 from relguide import Flight, Picture, fly, picture, plan, record, replay, scenario
-from relguide.flying.documents import Document
+from relguide.flying.documents import Document, ModeChanged
 from relguide.pictures import bundles
 from tests.relguide.pictures.engines import by_node, by_quickjs, recordings, view_of
 
@@ -78,6 +79,11 @@ def test_a_flight_is_flown_no_further_than_is_drawn() -> None:
 def test_between_two_samples_both_are_moved_on(recording: Path) -> None:
     at = {t: picture(recording, t, range_nm=10) for t in (560.0, 560.5, 561.0)}
     assert len(set(at.values())) == 3
+    flown = list(replay(recording))
+    news = next(d for d in flown if isinstance(d, ModeChanged))
+    later = flown.index(next(d for d in flown if d.t == 561.0))
+    flown.insert(later, replace(news, t=560.7))  # not known yet, and no sample to move towards
+    assert picture(flown, 560.5, range_nm=10) == at[560.5]
 
 
 @pytest.mark.parametrize(("t", "said"), [(-1.0, "-1"), (1e6, "1e+06")])
@@ -117,7 +123,7 @@ def test_nothing_is_no_flight() -> None:
 def test_in_pixels(recording: Path) -> None:
     png = picture(recording, 560.0).png(zoom=1)
     assert png[:8] == b"\x89PNG\r\n\x1a\n"
-    assert (int.from_bytes(png[16:20]), int.from_bytes(png[20:24])) == (768, 824)
+    assert (int.from_bytes(png[16:20]), int.from_bytes(png[20:24])) == (768, 803)
     with pytest.raises(ValueError, match="zoom must be a whole number from 1 to 8, not 0"):
         Picture("<svg/>").png(zoom=0)
 

@@ -31,6 +31,7 @@ import { ActivePath, SupersededPath } from "./plan";
 import { Plane } from "./plane";
 import { OtherPaths, ProposedPath } from "./proposal";
 import { RangeRings } from "./rings";
+import { Rivals } from "./rivals";
 import { Slot } from "./slot";
 import { Spacing } from "./spacing";
 import { HeadingTape, LubberLine } from "./tape";
@@ -58,6 +59,7 @@ const MAP_SHEETS: readonly Sheet[] = [
     layers: [
       FinalTrack,
       Tube,
+      Rivals,
       OtherPaths,
       SupersededPath,
       ProposedPath,

@@ -22,6 +22,7 @@ export const LINES = {
   idealProposed: { colour: "proposed", width: 1.25, dash: "2 5" },
   armed: { colour: "armed", width: 3, dash: "15 12" },
   ghost: { colour: "superseded", width: 1.5, dash: "3 6" },
+  rival: { colour: "value", width: 3, dash: "6 5" },
   fan: { colour: "superseded", width: 1.25, dash: "1 6" },
   tube: { colour: "plan", width: 1, dash: "2 6" },
   other: { colour: "superseded", width: 2, dash: "9 6" },

@@ -12,7 +12,11 @@ const IDEAL = "as planned, with turns and braking at once: flown, each takes som
 /** What becomes of the path that is shown, where it is not flown. */
 const STATE: Partial<Record<Guidance, string>> = { proposed: "proposed", armed: "accepted" };
 
-export function Alternatives(props: { session: Pick<Session, "shown"> }) {
+export function Alternatives(props: {
+  session: Pick<Session, "shown">;
+  /** Shows what other planners would fly in its place. */
+  compare?: () => void;
+}) {
   const { shown } = props.session;
   const { plan: shownPlan, state } = shown.numbers.value;
   const plan = shownPlan?.ideal ?? shownPlan?.plan;
@@ -23,6 +27,11 @@ export function Alternatives(props: { session: Pick<Session, "shown"> }) {
       aside={
         <span class="hint" title={IDEAL}>
           ideal times
+          {props.compare !== undefined && (
+            <button type="button" class="link" onClick={props.compare}>
+              Compare planners
+            </button>
+          )}
         </span>
       }
       scrolls

@@ -3,7 +3,7 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { ELEMENTS, elementOf, type Element as Named } from "../words";
+import type * as Words from "../words";
 
 /** Thin lines are found so far beside the pointer [px]. */
 const NEAR = [
@@ -15,7 +15,7 @@ const NEAR = [
 ] as const;
 
 interface Caption {
-  readonly element: Named;
+  readonly element: Words.Element;
   readonly x: number;
   readonly y: number;
 }
@@ -29,14 +29,21 @@ export function Captioned(props: { children: ComponentChildren }) {
     const clear = () => {
       caption.value = null;
     };
+    let words: typeof Words | null = null; // fetched when they are first wanted
     const say = (event: PointerEvent) => {
+      if (words === null) {
+        void import("../words").then((fetched) => {
+          words = fetched;
+        });
+        return;
+      }
       // What is dragged is known already.
       if (event.type === "pointermove" && event.buttons !== 0) {
         clear();
         return;
       }
       const box = current.getBoundingClientRect();
-      const element = elementAt(event.clientX, event.clientY);
+      const element = elementAt(words, event.clientX, event.clientY);
       const [x, y] = [event.clientX - box.left, event.clientY - box.top];
       caption.value =
         element === null
@@ -66,8 +73,12 @@ export function Captioned(props: { children: ComponentChildren }) {
 }
 
 /** The element nearest to a point of the page: the one drawn on top, if several are near. */
-function elementAt(x: number, y: number): Named | null {
-  let best: Named | null = null;
+function elementAt(
+  { ELEMENTS, elementOf }: typeof Words,
+  x: number,
+  y: number,
+): Words.Element | null {
+  let best: Words.Element | null = null;
   for (const [dx, dy] of NEAR) {
     const mark = document.elementFromPoint(x + dx, y + dy);
     const found = mark === null ? null : elementOf(mark);

@@ -62,7 +62,7 @@ function stateSentence(flight: Moment, state: Guidance): string {
     case "converge":
     case "capture":
     case "follow":
-      return newest(flight, flight.result === null ? ["plan", "mode"] : ["end"]);
+      return newest(flight, flight.result === null ? ["plan", "mode", "leader"] : ["end"]);
     case "infeasible":
     case "escape":
     case "unable":

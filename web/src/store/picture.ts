@@ -8,10 +8,12 @@ import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometr
 import { KT, NM } from "../units";
 import type {
   AircraftSample,
+  ComparedPlanner,
   FanChanged,
   ForecastChanged,
   LeaderRoute,
   PathPoint,
+  PathSegment,
   PlanChanged,
 } from "../wire";
 import { type Announcements, announcementsOf } from "./announcements";
@@ -155,6 +157,15 @@ export interface Picture {
   readonly ended: boolean;
 }
 
+/** The path that one of several compared planners would fly, over the ground from its beginning. */
+export interface Rival {
+  readonly planner: ComparedPlanner;
+  readonly segments: readonly PathSegment[];
+  /** Whether it may be flown, and whether it is drawn strongest. */
+  readonly isFlyable: boolean;
+  readonly isChosen: boolean;
+}
+
 /** What is shown: the picture and its numbers, and how far all has moved since it was drawn. */
 export interface Shown {
   readonly picture: ReadonlySignal<Picture>;
@@ -167,9 +178,12 @@ export interface Shown {
   readonly spoken: ReadonlySignal<Announcements>;
   /** Another flight that is seen beside this one; null if there is none. */
   readonly ghost: ReadonlySignal<Ghost | null>;
+  /** What planners that are compared would fly; none while that is closed. */
+  readonly rivals: ReadonlySignal<readonly Rival[]>;
 }
 
 const NO_GHOST: ReadonlySignal<Ghost | null> = signal(null);
+const NO_RIVALS: ReadonlySignal<readonly Rival[]> = signal([]);
 
 /** The plan before is shown this long [s]. */
 const SUPERSEDED_SHOWN = 3;
@@ -177,6 +191,7 @@ const SUPERSEDED_SHOWN = 3;
 export function createShown(
   { moment, read, since, isSent }: Flight,
   ghost: Shown["ghost"] = NO_GHOST,
+  rivals: Shown["rivals"] = NO_RIVALS,
 ): Shown {
   const numbers = computed(() => numbersOf(read.value));
   return {
@@ -189,6 +204,7 @@ export function createShown(
     words: computed(() => describe(read.value, numbers.value)),
     spoken: computed(() => announcementsOf(read.value)),
     ghost,
+    rivals,
   };
 }
 
