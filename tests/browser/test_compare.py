@@ -57,7 +57,7 @@ def test_6a_beside_6b_is_one_click_and_says_what_the_command_says(
 def test_charts_scrub_and_are_saved(page: Page, watched: Watch, sky: Service) -> None:
     page.goto(f"{sky.url}/?compare=scenario:fig_6a,scenario:fig_6b&t=845")
     expect(page.locator(".panel.compare table")).to_be_visible()
-    page.get_by_role("button", name="Charts").click()
+    page.get_by_role("button", name="Charts", exact=True).click()
     strips = page.get_by_role("slider", name="Flight time shown in the charts")
     expect(strips).to_have_attribute("aria-valuenow", "845")
     expect(page.locator(".chart-strip canvas")).to_have_count(11)  # seven, and four of optimality

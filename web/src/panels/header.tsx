@@ -14,7 +14,7 @@ const CONNECTION_TEXT: Record<Connection, string> = {
 };
 
 export function Header(props: { session: Session; children?: ComponentChildren }) {
-  const { chartsOpen, helpOpen, recordsOpen, sound } = props.session;
+  const { helpOpen, recordsOpen, sound } = props.session;
   return (
     <header class="top">
       <h1>
@@ -27,18 +27,6 @@ export function Header(props: { session: Session; children?: ComponentChildren }
       </div>
       <SimClock session={props.session} />
       <ConnectionState session={props.session} />
-      <button
-        type="button"
-        class="quiet"
-        aria-pressed={chartsOpen.value}
-        title="The flight over time, in the scene's place (G)"
-        onClick={() => {
-          chartsOpen.value = !chartsOpen.value;
-        }}
-      >
-        <Icon name="charts" />
-        Charts
-      </button>
       <button
         type="button"
         class="quiet"
