@@ -81,8 +81,9 @@ export function createActions(
   let engagement: keyof typeof RATE = "off";
   /** When this page last gave a command [ms]. */
   let commanded = Number.NEGATIVE_INFINITY;
-  /** Whether a flight that went on for an acceptance stands again once that is taken. */
+  /** Whether a flight that went on for an acceptance stands again once that is taken, and waits until it is engaged. */
   let standsAgain = false;
+  let waits = false;
   /** Whether the page began with the map alone, so that nothing flies yet. */
   let isGrounded = false;
 
@@ -271,14 +272,15 @@ export function createActions(
   /** Starts a flight and shows it; `flies` is called once it flies. */
   async function begin(wanted: FlightRequest, flies = () => {}): Promise<void> {
     isGrounded = false;
+    waits = standsAgain = false;
     if (again !== null) clearTimeout(again);
     say("sending", "Starting the flight…");
     const answer = await createFlight(wanted);
     if (answer.kind === "done") {
       show(answer.value);
       flies();
-      const waits = wanted.paused === true ? " It waits: accept what is proposed, or play." : "";
-      say("done", `New flight: ${answer.value.title}.${waits}`);
+      const hint = wanted.paused === true ? " It waits: accept what is proposed, or play." : "";
+      say("done", `New flight: ${answer.value.title}.${hint}`);
     } else if (answer.retryAfter !== undefined) {
       session.outage.value = null;
       say("sending", `${answer.sentence} It will start by itself.`);
@@ -403,8 +405,9 @@ export function createActions(
       void command({ command: "set_engagement", engagement }, doing, done).then(() => {
         // what it refuses at once brings no document
         if (session.feedback.value.kind === "refused") session.flight.isSent.value = false;
-        else if (standsAtStart()) {
-          standsAgain = engagement === "armed";
+        else if (standsAtStart() || waits) {
+          // Whoever engages at once is not held up by the pause that reading was to have.
+          waits = standsAgain = engagement === "armed";
           void command({ command: "play" }, doing, done);
         }
       });
