@@ -87,7 +87,7 @@ def test_a_situation_is_taken_along_as_link_request_and_program(
 
 
 def test_what_is_laid_out_is_flown(page: Page, watched: Watch) -> None:
-    page.get_by_role("button", name="Beside").click()
+    page.get_by_role("button", name="Beside", exact=True).click()
     expect(page.locator(".map-bench .headline-figure")).to_have_text("03:02")
     expect(page.locator(".map-bench .headline-note")).to_have_text("ideal 02:37")
     expect(page.locator(".map-bench .why")).to_contain_text("flies LRL in place of RSL: 26 s more")

@@ -10,7 +10,7 @@ import {
   readFlight,
   readRecord,
 } from "./api";
-import { fetchReference, readCompared, referencesIn, splitReference } from "./compare/opening";
+import { referencesIn, splitReference } from "./compare/references";
 import type { Actions, Recording, Session } from "./session";
 import type { FlightStore } from "./store/flight";
 import type { Guidance } from "./store/states";
@@ -81,8 +81,9 @@ export function createActions(
   let engagement: keyof typeof RATE = "off";
   /** When this page last gave a command [ms]. */
   let commanded = Number.NEGATIVE_INFINITY;
-  /** Whether a flight that went on for an acceptance stands again once that is taken. */
+  /** Whether a flight that went on for an acceptance stands again once that is taken, and waits until it is engaged. */
   let standsAgain = false;
+  let waits = false;
   /** Whether the page began with the map alone, so that nothing flies yet. */
   let isGrounded = false;
 
@@ -182,12 +183,13 @@ export function createActions(
     };
     wait();
     const waiting = setInterval(wait, 1000);
+    const { fetchReference, readCompared } = await import("./compare/opening");
     const [shown, beside] = await Promise.all([fetchReference(first), readCompared(other)]);
     clearInterval(waiting);
     const refused = [shown, beside].find((each) => each.kind === "refused");
     if (shown.kind === "refused" || beside.kind === "refused") {
-      say("refused", refused?.kind === "refused" ? refused.sentence : "");
       if (session.status.value === null) await begin(requestOf(FIRST_SCENARIO));
+      say("refused", refused?.kind === "refused" ? refused.sentence : "");
       return;
     }
     const [kind, id] = splitReference(first);
@@ -202,6 +204,7 @@ export function createActions(
 
   async function compareWith(source: string | File): Promise<void> {
     say("sending", "Reading the other flight…");
+    const { readCompared } = await import("./compare/opening");
     const read = await readCompared(source);
     if (read.kind === "refused") {
       say("refused", read.sentence);
@@ -269,14 +272,15 @@ export function createActions(
   /** Starts a flight and shows it; `flies` is called once it flies. */
   async function begin(wanted: FlightRequest, flies = () => {}): Promise<void> {
     isGrounded = false;
+    waits = standsAgain = false;
     if (again !== null) clearTimeout(again);
     say("sending", "Starting the flight…");
     const answer = await createFlight(wanted);
     if (answer.kind === "done") {
       show(answer.value);
       flies();
-      const waits = wanted.paused === true ? " It waits: accept what is proposed, or play." : "";
-      say("done", `New flight: ${answer.value.title}.${waits}`);
+      const hint = wanted.paused === true ? " It waits: accept what is proposed, or play." : "";
+      say("done", `New flight: ${answer.value.title}.${hint}`);
     } else if (answer.retryAfter !== undefined) {
       session.outage.value = null;
       say("sending", `${answer.sentence} It will start by itself.`);
@@ -401,8 +405,9 @@ export function createActions(
       void command({ command: "set_engagement", engagement }, doing, done).then(() => {
         // what it refuses at once brings no document
         if (session.feedback.value.kind === "refused") session.flight.isSent.value = false;
-        else if (standsAtStart()) {
-          standsAgain = engagement === "armed";
+        else if (standsAtStart() || waits) {
+          // Whoever engages at once is not held up by the pause that reading was to have.
+          waits = standsAgain = engagement === "armed";
           void command({ command: "play" }, doing, done);
         }
       });

@@ -2,7 +2,6 @@
 
 import { type Signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { FIGURES } from "./compare/opening";
 import { late } from "./late";
 import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
@@ -42,6 +41,7 @@ const Charts = late(
   "The charts are on their way.",
 );
 const ComparePanel = late(async () => (await import("./compare/panel")).ComparePanel, "");
+const ExportDialog = late(async () => (await import("./panels/export-dialog")).ExportDialog, "");
 const Records = late(async () => (await import("./panels/records")).Records, "");
 
 export function Cockpit(props: { session: Session; actions: Actions }) {
@@ -53,9 +53,6 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
     <>
       <Header session={session}>
         <ScenarioPicker session={session} actions={actions} />
-        <button type="button" onClick={() => actions.compare(...FIGURES)}>
-          Fig. 6a beside 6b
-        </button>
         <FirstStart readiness={session.firstStart} />
       </Header>
       <main class={session.sceneMaximised.value ? "maximised" : ""}>
@@ -129,6 +126,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
       </main>
       {!isMap && <Timeline session={session} actions={actions} />}
       {session.helpOpen.value && <Help session={session} />}
+      {session.exportOpen.value && <ExportDialog session={session} />}
       {session.recordsOpen.value && <Records session={session} actions={actions} />}
       <Announcer session={session} />
     </>

@@ -105,3 +105,16 @@ def test_times_have_columns_of_their_own() -> None:
         "id", "line", "status", "time_to_converge_s", "optimality.proof",
         "optimality.lower_bound_s", "reason", "message", "lower_bound_s",
     ]  # fmt: skip
+
+
+def test_the_flight_of_a_plan_has_its_columns() -> None:
+    columns = answer_columns("plan", ("flown",))
+    added = {name: kind for name, kind in columns.items() if name.startswith("flown.")}
+    assert added["flown.join_s"] == "number"
+    assert added["flown.points"] == "json"
+    assert not [name for name in answer_columns("plan", ()) if name.startswith("flown.")]
+    situation, anchor = situation_from_json(BODY)
+    (cells,) = cells_of_answers(
+        [answer(situation, anchor, plan, include=["flown"])], {"flown.word": "text"}
+    )
+    assert cells == ["RSR"]

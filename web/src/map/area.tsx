@@ -13,8 +13,8 @@ type Ring = readonly (readonly number[])[];
 /** What a region is called on the map. */
 const NAMES: Record<string, string> = { "": "NO PLAN", delay: "DELAY", constrained: "LIMIT" };
 /** A name is written only where it fits [px]. */
-const NAMED_FROM = 70;
-const NAME_SIZE = 17;
+const NAMED_FROM = 80;
+const NAME_SIZE = 20;
 /** Where along its line a number is tried, and how far it stays from the others [px]. */
 const PARTS = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8] as const;
 const APART = 48;
@@ -39,7 +39,7 @@ export function AreaLayer({ map, view }: { map: Editor; view: View }) {
       ))}
       {lines.value.map(({ key, text, at }) =>
         at === null ? null : (
-          <text key={key} class="nd-text area-minutes" x={round(at.x)} y={round(at.y + 5)}>
+          <text key={key} class="nd-text area-minutes" x={round(at.x)} y={round(at.y + 7)}>
             {text}
           </text>
         ),

@@ -20,7 +20,7 @@ export function twoTimes(answered: Answered | null): TwoTimes {
   const ideal = formatClock(answer.time_to_converge_s);
   if (flown.status === "not_flown")
     return { label: "Ideal", note: "not flown", remark: `Not flown: ${inPageUnits(flown.reason)}` };
-  const [label, note] = ["Proposed, as flown", `ideal ${ideal}`];
+  const [label, note] = ["Flown", `ideal ${ideal}`];
   if (flown.reason === "") return { label, note };
   return { label, note, remark: `Ideal ${ideal} by ${word}. ${inPageUnits(flown.reason)}` };
 }

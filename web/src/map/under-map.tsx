@@ -37,7 +37,8 @@ function FlyBar({ session, actions }: { session: Session; actions: Actions }) {
     <section class={`fly-bar ${isLate.value ? "is-late" : ""}`} aria-label="Times, and fly it">
       {trouble === null ? (
         <p class="fly-times">
-          <b>{toJoin}</b> {[label, note].filter((part) => part !== undefined).join("; ")}
+          <b>{toJoin}</b>{" "}
+          {[label?.toLowerCase(), note].filter((part) => part !== undefined).join("; ")}
         </p>
       ) : (
         <p class="fly-times caution">{trouble.sentence}</p>

@@ -98,7 +98,7 @@ test("the headline is the flown time; the ideal one stands beside it with the re
   const flown = flownCard();
   const text = beside({ ...plan, flown });
   const ideal = formatClock(plan.time_to_converge_s);
-  expect(text).toContain(`Proposed, as flown${formatClock(flown.join_s)}ideal ${ideal}`);
+  expect(text).toContain(`Flown${formatClock(flown.join_s)}ideal ${ideal}`);
   expect(text).toContain(`Ideal ${ideal} by ${plan.word}. It begins to turn 7 s later`);
   expect(text).toContain("Optimal: no path is faster");
 });
