@@ -225,7 +225,8 @@ TITLES = {
 DESCRIPTIONS = {
     "fig_6a": "The leader turns right to 135° without announcement; the pursuer, 40 km behind and "
     "40 km north, has to change its plan.",
-    "fig_6b": "The same flight, but the pursuer knows of the turn and makes for the final route.",
+    "fig_6b": "The leader turns right to 135° and has announced it; the pursuer, 40 km behind and "
+    "40 km north, makes for the route after the turn from the start.",
     "recorded_leader": "The leader flies as it was recorded by ADS-B near Paris, intent unknown; "
     "the pursuer begins 30 km behind it and 20 km to its left.",
 }

@@ -1,6 +1,6 @@
 """What a browser has to load before the cockpit stands.
 
-The scene follows at once, beside its own page; map, charts, records and help come when they are opened.
+The scene follows at once; map, charts, records and help come when they are opened.
 """
 
 import gzip

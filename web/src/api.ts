@@ -122,6 +122,11 @@ export function listRecords(
   return request("GET", `${ROOT}/records/flights?limit=${most}`);
 }
 
+/** One flight on record, in short. */
+export function readRecorded(id: string): Promise<Answer<RecordedFlight>> {
+  return request("GET", `${ROOT}/records/flights/${encodeURIComponent(id)}`);
+}
+
 /** The forms in which a flight on record can be had. */
 export const EXPORT_FORMS = ["jsonl", "csv", "parquet", "geojson", "czml"] as const;
 export type ExportForm = (typeof EXPORT_FORMS)[number];

@@ -42,6 +42,7 @@ const Charts = late(
   "The charts are on their way.",
 );
 const ComparePanel = late(async () => (await import("./compare/panel")).ComparePanel, "");
+const ExportDialog = late(async () => (await import("./panels/export-dialog")).ExportDialog, "");
 const Records = late(async () => (await import("./panels/records")).Records, "");
 
 export function Cockpit(props: { session: Session; actions: Actions }) {
@@ -129,6 +130,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
       </main>
       {!isMap && <Timeline session={session} actions={actions} />}
       {session.helpOpen.value && <Help session={session} />}
+      {session.exportOpen.value && <ExportDialog session={session} />}
       {session.recordsOpen.value && <Records session={session} actions={actions} />}
       <Announcer session={session} />
     </>

@@ -43,10 +43,11 @@ const KEYS: Record<string, (session: Session, actions: Actions) => Act> = {
   g: ({ chartsOpen }) => set(chartsOpen, !chartsOpen.value),
   m: ({ sceneMaximised }) => set(sceneMaximised, !sceneMaximised.value),
   "?": ({ helpOpen }) => set(helpOpen, !helpOpen.value),
-  Escape: ({ helpOpen, recordsOpen, sceneMaximised }) => {
+  Escape: ({ helpOpen, recordsOpen, exportOpen, sceneMaximised }) => {
     return () => {
       helpOpen.value = false;
       recordsOpen.value = false;
+      exportOpen.value = false;
       sceneMaximised.value = false;
     };
   },

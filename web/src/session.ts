@@ -53,8 +53,9 @@ export interface Session {
   readonly replayRate: Signal<number>;
   /** Why a typed time was not taken; "" if it was. */
   readonly timeRefusal: Signal<string>;
-  /** Whether the list of flights on record is open. */
+  /** Whether the list of flights on record is open, and what can be taken away. */
   readonly recordsOpen: Signal<boolean>;
+  readonly exportOpen: Signal<boolean>;
   /** The picture of this instant, and its numbers: what every part of the page shows. */
   readonly shown: Shown;
   readonly scenarios: Signal<readonly ScenarioInfo[]>;
@@ -151,6 +152,7 @@ export function createSession(
     replayRate: signal(1),
     timeRefusal: signal(""),
     recordsOpen: signal(false),
+    exportOpen: signal(false),
     shown: createShown(flight, comparison.ghost, planners.rivals),
     comparison,
     planners,

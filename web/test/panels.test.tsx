@@ -465,6 +465,21 @@ describe("panels", () => {
     expect(place.textContent).toContain("Data old 3 s");
   });
 
+  test("a maximised scene leaves the crew its steps and the key numbers", () => {
+    const { session } = flying();
+    const actions = silentActions();
+    session.sceneMaximised.value = true;
+    const aside = document.createElement("div");
+    render(<Scene session={session} actions={actions} />, aside);
+    const bar = aside.querySelector(".scene-bar");
+    const numbers = session.shown.numbers.value;
+    for (const each of [numbers.separation, numbers.slotDistance, numbers.minSeparation])
+      expect(bar?.textContent).toContain(each);
+    const back = [...(bar?.querySelectorAll("button") ?? [])].at(-1);
+    back?.click();
+    expect(actions.engage).toHaveBeenCalledWith("off");
+  });
+
   test("the scene is asked for once there is a position", () => {
     const { session } = flying();
     const aside = document.createElement("div"); // outside the document, so that nothing is loaded

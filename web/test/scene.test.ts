@@ -1,3 +1,4 @@
+import { signal } from "@preact/signals";
 import { describe, expect, test } from "vitest";
 import { placeLabels } from "../src/nd/labels";
 import { overlap } from "../src/nd/view";
@@ -259,6 +260,33 @@ test("of a leader that is not heard, what is not known is not written, and its a
   expect(leader?.lines.every(({ colour }) => colour === "caution")).toBe(true);
   expect(texts.flatMap(({ lines }) => lines).every(({ text }) => !/^ ?kt|--/.test(text))).toBe(
     true,
+  );
+});
+
+test("the other flight of a comparison is in the picture, hollow of colour and named", () => {
+  const flight = flightIn("converge");
+  const pursuer = { ...sampleOf(flight).pursuer, x_m: -150_000, y_m: 40_000 };
+  const places = [pursuer, sampleOf(flight).pursuer];
+  const ghost = {
+    name: "FIG 6A",
+    pursuer,
+    leader: null,
+    isOutside: false,
+    flown: places,
+    own: places,
+  };
+  const shown = createShown(flight, signal(ghost));
+  const picture = shown.picture.value;
+  const sights = sightsOf(picture, ghost);
+  if (sights === null || picture.now === null) throw new Error("A flight without a position.");
+  const camera = cameraAt(standFor("Chase", sights, 1.5), 1.5);
+  const at = glassOf(camera, middleOf(picture.now), SIZE).at(pursuer);
+  expect(Math.abs((at?.x ?? 0) / SIZE.width - 0.5)).toBeLessThan(0.39);
+  const drawn = new Map(strokesOf(picture, camera, SIZE, ghost).map((each) => [each.name, each]));
+  expect(drawn.get("other-flown")?.dash).not.toBe("");
+  expect(drawn.get("other-body")?.colour).toBe("superseded");
+  expect(textsOf(shown, camera, SIZE).find(({ id }) => id === "other")?.lines[0]?.text).toBe(
+    "FIG 6A",
   );
 });
 

@@ -26,6 +26,7 @@ from relguide.contract.flight_summary import figures, summarize
 from relguide.contract.messages import FlightRequest
 from relguide.contract.recorder import recording_of
 from relguide.contract.refusal import ContractError, parse
+from relguide.flying.fans import all_fans
 from relguide.flying.flight import fly
 from relguide.flying.verdicts import ComparedPlanner
 from relguide.learn.planners import make_planner
@@ -276,6 +277,7 @@ def record_flight(wanted: FlightRequest, planner: str | Planner) -> bytes:
         seed=wanted.seed,
         sample_period=1.0,
         planner_name=planner if isinstance(planner, str) else None,
+        wants_fan=all_fans,
     )
     return gzip.compress(recording_of(documents), PACKING)
 

@@ -56,10 +56,15 @@ class SceneStage:
         from viser import ViserServer
 
         from relguide_server.scene.flight_scene import FlightScene
+        from relguide_server.scene.wakeups import wake_safely
 
         rich.get_console().quiet = True  # viser says goodbye there each time a scene closes
         host = _hidden_host()
         server = ViserServer(host=host, port=0, verbose=False)
+        wake_safely(server._websock_server.get_message_buffer())
+        server.on_client_connect(
+            lambda client: wake_safely(client._websock_connection.get_message_buffer())
+        )
         try:
             scene = FlightScene(server, self._plane)
             scene.draw(self._past)

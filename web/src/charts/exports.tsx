@@ -1,14 +1,12 @@
 /** What is charted, as a drawing or a picture to be kept. */
 
 import { type ReadonlySignal, useSignal } from "@preact/signals";
+import { pngOf, saveFile } from "../save";
 import type { Session } from "../session";
 import { formatClock } from "../units";
 import type { Window } from "./plot";
 import type { Strip } from "./strips";
 import { type About, chartSvg } from "./svg";
-
-/** Pixels of a picture for each of the drawing's. */
-const FINE = 2;
 
 interface Props {
   readonly session: Session;
@@ -26,7 +24,7 @@ export function Exports({ session, strips, window }: Props) {
         type="button"
         class="quiet"
         title="Save the charts as a drawing (SVG)"
-        onClick={() => save(new Blob([draw()], { type: "image/svg+xml" }), `${name}.svg`)}
+        onClick={() => saveFile(`${name}.svg`, new Blob([draw()], { type: "image/svg+xml" }))}
       >
         SVG
       </button>
@@ -35,10 +33,15 @@ export function Exports({ session, strips, window }: Props) {
         class="quiet"
         title="Save the charts as a picture (PNG)"
         onClick={() => {
-          void pictureOf(draw()).then((picture) => {
-            refusal.value = picture === null ? "The browser could not draw it: take SVG." : "";
-            if (picture !== null) save(picture, `${name}.png`);
-          });
+          pngOf(draw()).then(
+            (picture) => {
+              refusal.value = "";
+              saveFile(`${name}.png`, picture);
+            },
+            () => {
+              refusal.value = "The browser could not draw it: take SVG.";
+            },
+          );
         }}
       >
         PNG
@@ -71,27 +74,4 @@ function aboutOf({ flight, comparison }: Session, window: Window): About {
     ...window,
     cursor: t,
   };
-}
-
-/** A drawing as a picture; null where the browser draws none. */
-async function pictureOf(drawing: string): Promise<Blob | null> {
-  const image = new Image();
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(drawing)}`;
-  try {
-    await image.decode();
-  } catch {
-    return null;
-  }
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [FINE * image.width, FINE * image.height];
-  canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
-  return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
-}
-
-function save(content: Blob, name: string): void {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(content);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }

@@ -8,14 +8,8 @@ import { onMap, placeAt, project, toMap } from "./view";
 
 /** The minimum separation, round the leader. */
 export function SeparationCircle({ shown, view }: LayerProps) {
-  const { picture } = shown;
-  const place = useComputed(() => {
-    const { leader } = picture.value;
-    return leader === null || !isRound(picture.value)
-      ? ""
-      : placeAt(toMap(view.layout.value, leader));
-  });
-  const radius = useComputed(() => picture.value.keepOut * view.layout.value.scale);
+  const place = useLeaderPlace({ shown, view });
+  const radius = useComputed(() => shown.picture.value.keepOut * view.layout.value.scale);
   const isShown = useComputed(() => place.value !== "" && radius.value > 0);
   const style = usePart(shown, ({ separation }) => SEPARATION[separation.state]);
   if (!isShown.value) return null;
@@ -32,6 +26,15 @@ export function SeparationCircle({ shown, view }: LayerProps) {
       />
     </g>
   );
+}
+
+/** Where circles round the leader are put; "" while none is drawn. */
+export function useLeaderPlace({ shown, view }: LayerProps) {
+  return useComputed(() => {
+    const { value: picture } = shown.picture;
+    if (picture.leader === null || !isRound(picture)) return "";
+    return placeAt(toMap(view.layout.value, picture.leader));
+  });
 }
 
 /** Whether it is drawn: round a designated leader, and wherever the minimum is or will be lost. */

@@ -1,8 +1,7 @@
 import { useComputed } from "@preact/signals";
-import { isRound } from "./circle";
+import { useLeaderPlace } from "./circle";
 import type { LayerProps } from "./layer";
 import { ink, LINES } from "./style";
-import { placeAt, toMap } from "./view";
 
 /** Nearer to the minimum it would not be told from it [px]. */
 const APART = 2;
@@ -10,12 +9,7 @@ const APART = 2;
 /** What guidance keeps beside the minimum for what it is not certain of, round the leader. */
 export function MarginCircle({ shown, view }: LayerProps) {
   const { picture } = shown;
-  const place = useComputed(() => {
-    const { leader } = picture.value;
-    return leader === null || !isRound(picture.value)
-      ? ""
-      : placeAt(toMap(view.layout.value, leader));
-  });
+  const place = useLeaderPlace({ shown, view });
   const margin = useComputed(() => (picture.value.now?.margin_m ?? 0) * view.layout.value.scale);
   const radius = useComputed(() => picture.value.keepOut * view.layout.value.scale + margin.value);
   const isShown = useComputed(() => place.value !== "" && margin.value >= APART);

@@ -68,7 +68,7 @@ export function Aircraft(props: { session: Session; actions: Actions }) {
       </p>
       {sample !== null && !isGuided && (
         <div class="row labelled heading-dial">
-          <span aria-hidden="true">Select</span>
+          <span aria-hidden="true">HDG</span>
           <Dial
             label="Own heading"
             unit="°"

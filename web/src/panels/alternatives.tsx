@@ -25,7 +25,7 @@ export function Alternatives(props: {
       name="alternatives"
       title="Alternatives"
       aside={
-        <span class="hint" title={IDEAL}>
+        <span class="hint row" title={IDEAL}>
           ideal times
           {props.compare !== undefined && (
             <button type="button" class="link" onClick={props.compare}>

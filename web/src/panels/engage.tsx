@@ -24,7 +24,7 @@ function againText(hasLapsed: boolean, droppedAt: string): string {
 
 const STEPS: Record<Guidance, Steps> = {
   off: {
-    says: "Designate the leader: here, or by a click on it.",
+    says: "Join the leader in the least time, never closer than the minimum. Designate it: here, or by a click on it.",
     next: { text: "Designate", to: "designated" },
     back: "",
   },

@@ -21,10 +21,7 @@ export function Header(props: { session: Session; children?: ComponentChildren }
         <img src="/favicon.svg" alt="" width="26" height="26" />
         <span class="word">relguide</span>
       </h1>
-      <div class="top-middle">
-        {props.children}
-        <p class="purpose">Join another aircraft in the least time, never too close to it.</p>
-      </div>
+      <div class="top-middle">{props.children}</div>
       <SimClock session={props.session} />
       <ConnectionState session={props.session} />
       <button
@@ -37,7 +34,7 @@ export function Header(props: { session: Session; children?: ComponentChildren }
         }}
       >
         <Icon name="charts" />
-        Charts
+        <span class="word">Charts</span>
       </button>
       <button
         type="button"

@@ -13,12 +13,13 @@ const NAMES: Record<ComparedPlanner, string> = {
   printed_network: "As printed",
 };
 
-const VERDICTS: Record<Verdict, string> = {
-  planned: "certified",
-  refused: "not flown",
-  handed_over: "hands over",
-  no_plan: "no plan",
-  preparing: "preparing",
+/** A sign and a word for each. */
+const VERDICTS: Record<Verdict, readonly [string, string]> = {
+  planned: ["\u2713", "certified"],
+  refused: ["\u2715", "not flown"],
+  handed_over: ["\u2192", "hands over to the exact planner"],
+  no_plan: ["\u2013", "no plan"],
+  preparing: ["\u2026", "being compiled"],
 };
 
 export function PlannersPanel(props: { session: Session }) {
@@ -55,11 +56,13 @@ export function PlannersPanel(props: { session: Session }) {
           <thead>
             <tr>
               <th scope="col">Planner</th>
-              <th scope="col">Joins in</th>
+              <th scope="col">Joins</th>
               <th scope="col">Over</th>
               <th scope="col">Word</th>
-              <th scope="col">Found in</th>
-              <th scope="col">Verdict</th>
+              <th scope="col">ms</th>
+              <th scope="col">
+                <span class="visually-hidden">Verdict</span>
+              </th>
             </tr>
           </thead>
           <tbody>
@@ -80,6 +83,7 @@ export function PlannersPanel(props: { session: Session }) {
 
 function Row({ verdict, isChosen }: { verdict: PlannerVerdict; isChosen: boolean }) {
   const { planner, status, word, time_to_converge_s, over_exact_s, compute_ms } = verdict;
+  const [sign, meaning] = VERDICTS[status];
   const hasPath = word !== "";
   return (
     <tr class={`${status} ${isChosen ? "chosen" : ""}`}>
@@ -91,8 +95,11 @@ function Row({ verdict, isChosen }: { verdict: PlannerVerdict; isChosen: boolean
           : ""}
       </td>
       <td>{word}</td>
-      <td>{status === "preparing" ? "" : `${compute_ms.toFixed(1)} ms`}</td>
-      <td>{VERDICTS[status]}</td>
+      <td>{status === "preparing" ? "" : compute_ms.toFixed(1)}</td>
+      <td title={meaning}>
+        <span aria-hidden="true">{sign}</span>
+        <span class="visually-hidden">{meaning}</span>
+      </td>
     </tr>
   );
 }

@@ -1,33 +1,14 @@
-/** What stays within reach while the scene takes the place of the panels: time, crew, key numbers. */
+/** What stays within reach while the scene takes the place of the panels: the crew's steps and key numbers. */
 
 import { EngageButtons } from "../panels/engage";
-import { Choice, Icon } from "../parts";
-import { type Actions, isFlying, RATES, type Session } from "../session";
+import type { Actions, Session } from "../session";
 import { STATE_NAMES } from "../store/reading";
 
 export function SceneBar(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
-  const { flight, shown } = session;
-  const { rate, paused, ended } = flight.clock.value;
-  const numbers = shown.numbers.value;
+  const numbers = session.shown.numbers.value;
   return (
-    <section class="scene-bar" aria-label="Flight and guidance">
-      <button
-        type="button"
-        class="primary"
-        disabled={ended || !isFlying(session)}
-        onClick={() => (paused ? actions.play() : actions.pause())}
-      >
-        <Icon name={paused ? "play" : "pause"} />
-        {paused ? "Play" : "Pause"}
-      </button>
-      <Choice
-        label="Simulated seconds per second"
-        options={RATES}
-        chosen={RATES.find((offered) => offered === rate) ?? null}
-        text={(offered) => `×${offered}`}
-        choose={actions.setRate}
-      />
+    <section class="scene-bar" aria-label="Relative guidance">
       <EngageButtons session={session} actions={actions} />
       <span class={`mode-name ${numbers.state}`}>{STATE_NAMES[numbers.state]}</span>
       <dl>

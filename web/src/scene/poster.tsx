@@ -4,14 +4,18 @@ import type { ReadonlySignal } from "@preact/signals";
 import { useComputed } from "@preact/signals";
 import { ink } from "../nd/style";
 import { round } from "../nd/view";
+import type { Ghost } from "../store/ghost";
 import type { Picture, Shown } from "../store/picture";
 import { DEG } from "../units";
 import { type Camera, drawnLength, type Sights, seeFar } from "./camera";
 import type { Size } from "./glass";
 import { type Stroke, strokesOf } from "./strokes";
 
-/** What belongs in the picture; null before the first position. */
-export function sightsOf({ now, keepOut, join, places }: Picture): Sights | null {
+/** What belongs in the picture, the other flight of a comparison as well; null before the first position. */
+export function sightsOf(
+  { now, keepOut, join, places }: Picture,
+  ghost: Ghost | null = null,
+): Sights | null {
   if (now === null) return null;
   const { altitude_m } = now.pursuer;
   return {
@@ -19,7 +23,10 @@ export function sightsOf({ now, keepOut, join, places }: Picture): Sights | null
     leader: now.leader,
     radius: keepOut + now.margin_m,
     length: drawnLength(now.separation_m),
-    ahead: join === null ? [] : places.slice(1).map((place) => ({ ...place, altitude_m })),
+    ahead: [
+      ...(join === null ? [] : places.slice(1).map((place) => ({ ...place, altitude_m }))),
+      ...(ghost === null ? [] : [ghost.pursuer, ...(ghost.leader === null ? [] : [ghost.leader])]),
+    ],
   };
 }
 

@@ -1,6 +1,6 @@
 /**
  * The 3D scene beside the ND: the same flight, seen from anywhere. Live it is the server's own picture;
- * of any other instant, of a recording, and until the server's is there, the page draws it.
+ * of any other instant, of two flights, of a recording, and until the server's is there, the page draws it.
  */
 
 import {
@@ -54,14 +54,22 @@ export function Scene({ session, actions }: Props) {
   const maximised = sceneMaximised.value;
   const frame = useRef<HTMLIFrameElement>(null);
   const isDrawn = useSignal(false);
-  // The server's picture knows no other instant than the newest.
-  const isLive = useComputed(() => session.flight.source.value.kind === "live");
+  // The server's picture knows no other instant than the newest, and no other flight.
+  const isLive = useComputed(
+    () => session.flight.source.value.kind === "live" && shown.ghost.value === null,
+  );
   const view = useSignal<ViewName>("Chase");
   const camera = useSignal<Camera | null>(null);
   const size = useSignal<Size>({ width: 0, height: 0 });
   const isOpen = flying.value && url !== undefined;
   const isPosted = useComputed(() => !isDrawn.value || !isLive.value);
   const own = useOwnCamera({ shown, view, camera, size, isPosted });
+  // A hand that turned the page's picture has not turned the server's: there the view begins anew.
+  useSignalEffect(() => {
+    if (isPosted.value || !own.isTurned()) return;
+    view.value = "Chase";
+    press(frame.current?.contentDocument ?? null, "Chase");
+  });
   const seen = useComputed(() => (isPosted.value ? own.camera.value : camera.value));
   useEffect(() => {
     isDrawn.value = false;
@@ -142,6 +150,8 @@ interface OwnCamera {
   readonly camera: ReadonlySignal<Camera | null>;
   /** Leaves it where it is, to be turned by hand. */
   hold(): void;
+  /** Whether a hand has put it where it is. */
+  isTurned(): boolean;
   turn(right: number, down: number): void;
   zoom(factor: number): void;
 }
@@ -158,12 +168,13 @@ interface Looking {
 /** The camera of the picture that the page draws: where the view has it, or where a hand has put it. */
 function useOwnCamera({ shown, view, camera, size, isPosted }: Looking): OwnCamera {
   const held = useSignal<Stand | null>(null);
+  const byHand = useRef(false);
   const aspect = useComputed(() => size.value.width / Math.max(1, size.value.height));
   const stand = useComputed(() => {
     if (!isPosted.value || size.value.height === 0) return null;
     const chosen = view.value;
     if (chosen === "Free" && held.value !== null) return held.value;
-    const sights = sightsOf(shown.picture.value);
+    const sights = sightsOf(shown.picture.value, shown.ghost.value);
     if (sights === null) return null;
     return standFor(chosen === "Free" ? "Chase" : chosen, sights, aspect.value);
   });
@@ -172,11 +183,13 @@ function useOwnCamera({ shown, view, camera, size, isPosted }: Looking): OwnCame
     if (!isPosted.value || view.peek() !== "Free") return;
     const [from, pose] = [camera.peek(), shown.picture.peek().pose];
     if (from !== null && pose !== null) held.value = standOf(from, pose.altitude_m);
+    byHand.current = false;
   });
   const move = (moved: (stand: Stand) => Stand) => {
     const from = stand.peek();
     if (from === null) return;
     held.value = moved(from);
+    byHand.current = true;
     view.value = "Free";
   };
   return {
@@ -184,6 +197,7 @@ function useOwnCamera({ shown, view, camera, size, isPosted }: Looking): OwnCame
     hold: () => {
       held.value = stand.peek() ?? held.peek();
     },
+    isTurned: () => byHand.current && view.peek() === "Free",
     turn: (right, down) => move((from) => turned(from, right, down)),
     zoom: (factor) => move((from) => zoomed(from, factor)),
   };

@@ -123,6 +123,21 @@ export function strokesOf(
     add("slot-drop", foot, { colour: style.slotColour, width: 0.8, dash: "" });
     add("slot", edges.join(""), { colour: style.slotColour, width: 1.6, dash: "" });
   }
+  if (ghost !== null) {
+    add("own-flown", glass.line(raise(ghost.own, now.pursuer.altitude_m)), LINES.beside);
+    add("other-flown", glass.line(raise(ghost.flown, ghost.pursuer.altitude_m)), LINES.other);
+    for (const [name, aircraft] of [
+      ["other", ghost.pursuer],
+      ["other-leader", ghost.leader],
+    ] as const)
+      for (const facet of aircraft === null ? [] : airliner(aircraft, length, glass))
+        add(`${name}-${facet.name}`, facet.d, {
+          colour: "superseded",
+          width: 0,
+          dash: "",
+          light: 0.7 * facet.light,
+        });
+  }
   const both = [
     { name: "own", aircraft: now.pursuer, colour: "ownship" as const },
     ...(leader === null ? [] : [{ name: "leader", aircraft: leader, colour: hue }]),

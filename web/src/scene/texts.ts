@@ -8,6 +8,7 @@ import { SEPARATION } from "../nd/style";
 import type { Box, Point } from "../nd/view";
 import type { Colour } from "../store/colours";
 import { forecastIndex, pointsAfter } from "../store/forecast";
+import type { Ghost } from "../store/ghost";
 import type { Notice } from "../store/notices";
 import type { PairSample } from "../store/pair";
 import type { Picture, Shown } from "../store/picture";
@@ -19,7 +20,17 @@ import { gateEdges, LEVEL, leaderColour, levelsBelow, middleOf, raise, ring } fr
 
 /** Every text that can be written: those of the altitude scale last, as they are left out first. */
 const LEVELS = [1, 2, 3, 4].map((k) => `level ${k}`);
-export const TEXTS = ["own", "leader", "join", "slot", "closest", "min", ...LEVELS];
+export const TEXTS = [
+  "own",
+  "leader",
+  "join",
+  "slot",
+  "closest",
+  "min",
+  "other",
+  "other leader",
+  ...LEVELS,
+];
 
 /** The texts of this moment, the most important first. */
 export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
@@ -84,6 +95,9 @@ export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
       look.colour,
       { side: 90, gap: 8 },
     ),
+    ...others(shown.ghost.peek()).flatMap(({ id, name, aircraft }) =>
+      text(id, aircraft, [name], "superseded", beside(aircraft)),
+    ),
     ...levels(glass, now.pursuer).flatMap(({ id, place }) =>
       text(id, place, [formatLevel(place.altitude_m)], "superseded", {
         side: 90,
@@ -93,6 +107,16 @@ export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
       }),
     ),
   ];
+}
+
+/** Both aircraft of the flight that this one is compared with. */
+function others(ghost: Ghost | null): { id: string; name: string; aircraft: AircraftSample }[] {
+  if (ghost === null) return [];
+  const { name, pursuer, leader } = ghost;
+  const own = { id: "other", name, aircraft: pursuer };
+  return leader === null
+    ? [own]
+    : [own, { id: "other leader", name: `${name} LDR`, aircraft: leader }];
 }
 
 /** Own ship's speed and level, as far as they are known. */

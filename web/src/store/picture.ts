@@ -248,7 +248,7 @@ export function pictureOf(flight: Moment): Picture {
     flown,
     superseded: guided === null ? null : supersededPlan(flight),
     forecast: flight.forecast,
-    fan: isAhead && known.guidance ? flight.fan : null,
+    fan: FANNED.includes(state) && known.guidance ? flight.fan : null,
     until: shownUntil(flight, guided),
     turns: flown === null ? [] : turnsAhead(flight, flown),
     minutes: flown === null ? [] : minutesAhead(flight, flown),
@@ -329,6 +329,8 @@ function keepOut(flight: Moment, seconds: number): number {
   return least > 0 && seconds > STALE_AGE ? least + ASTRAY * seconds ** 2 : least;
 }
 
+/** Where a turn of the leader moves the join. */
+const FANNED: readonly Guidance[] = ["proposed", "armed", "converge"];
 /** The paths that lead somewhere. */
 const AHEAD: readonly GuidanceStyle["path"][] = ["proposed", "armed", "committed"];
 const NO_TRAIL: readonly TrailPoint[] = [];

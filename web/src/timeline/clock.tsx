@@ -53,6 +53,18 @@ export function Clock({ session, actions, outline }: Props) {
       <TimeField session={session} actions={actions} />
       <Rate session={session} actions={actions} />
       <Loop session={session} actions={actions} />
+      <button
+        type="button"
+        class="quiet timeline-looping"
+        disabled={none}
+        aria-expanded={session.exportOpen.value}
+        title="The display as a picture, the flight as a file"
+        onClick={() => {
+          session.exportOpen.value = !session.exportOpen.value;
+        }}
+      >
+        EXPORT
+      </button>
       {recording.value !== null ? (
         <span class="timeline-edge recorded">RECORDED</span>
       ) : clock.value.ended ? (

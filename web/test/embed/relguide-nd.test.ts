@@ -1,7 +1,7 @@
 import "../../src/embed/relguide-nd";
 import { act } from "preact/test-utils";
-import { afterEach, beforeEach, expect, test } from "vitest";
-import { modeChanged, planChanged, STARTED, sample } from "../samples";
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { modeChanged, planChanged, STARTED, sample, tick } from "../samples";
 
 const DOCUMENTS = [
   STARTED,
@@ -69,6 +69,44 @@ test("mode and range are properties and attributes", () => {
   });
   expect(nd.range).toBe("auto");
   expect(find('[role="img"]')?.getAttribute("aria-label")).not.toContain("range 80 ");
+});
+
+test("a live flight is shown as it flies, until documents are given", () => {
+  const sockets: FakeSocket[] = [];
+  class FakeSocket {
+    onmessage: ((message: { data: string }) => void) | null = null;
+    onopen: (() => void) | null = null;
+    isClosed = false;
+    constructor(
+      readonly url: string,
+      readonly protocol: string,
+    ) {
+      sockets.push(this);
+    }
+    close() {
+      this.isClosed = true;
+    }
+  }
+  vi.stubGlobal("WebSocket", FakeSocket);
+  const seen = details("timechange");
+  nd.live("/api/v1/flights/one/stream");
+  const [socket] = sockets;
+  expect(socket?.url).toMatch(/^ws:.*\/api\/v1\/flights\/one\/stream$/);
+  expect(socket?.protocol).toBe("relguide-stream-2");
+  show(() => {
+    socket?.onopen?.();
+    socket?.onmessage?.({ data: JSON.stringify(tick(0, DOCUMENTS.slice(0, 4))) });
+    socket?.onmessage?.({ data: JSON.stringify(tick(40, [sample(40)])) });
+  });
+  expect(nd.t).toBeGreaterThanOrEqual(40);
+  expect(seen.length).toBeGreaterThan(0);
+  expect(find(".nd-ownship")).not.toBeNull();
+  show(() => {
+    nd.documents = DOCUMENTS;
+  });
+  expect(socket?.isClosed).toBe(true);
+  expect(nd.t).toBe(0);
+  vi.unstubAllGlobals();
 });
 
 test("what is no view is refused in a sentence", () => {
