@@ -10,7 +10,7 @@ import {
   readFlight,
   readRecord,
 } from "./api";
-import { fetchReference, readCompared, referencesIn, splitReference } from "./compare/opening";
+import { referencesIn, splitReference } from "./compare/references";
 import type { Actions, Recording, Session } from "./session";
 import type { FlightStore } from "./store/flight";
 import type { Guidance } from "./store/states";
@@ -183,12 +183,13 @@ export function createActions(
     };
     wait();
     const waiting = setInterval(wait, 1000);
+    const { fetchReference, readCompared } = await import("./compare/opening");
     const [shown, beside] = await Promise.all([fetchReference(first), readCompared(other)]);
     clearInterval(waiting);
     const refused = [shown, beside].find((each) => each.kind === "refused");
     if (shown.kind === "refused" || beside.kind === "refused") {
-      say("refused", refused?.kind === "refused" ? refused.sentence : "");
       if (session.status.value === null) await begin(requestOf(FIRST_SCENARIO));
+      say("refused", refused?.kind === "refused" ? refused.sentence : "");
       return;
     }
     const [kind, id] = splitReference(first);
@@ -203,6 +204,7 @@ export function createActions(
 
   async function compareWith(source: string | File): Promise<void> {
     say("sending", "Reading the other flight…");
+    const { readCompared } = await import("./compare/opening");
     const read = await readCompared(source);
     if (read.kind === "refused") {
       say("refused", read.sentence);

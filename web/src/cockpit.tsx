@@ -2,7 +2,6 @@
 
 import { type Signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { FIGURES } from "./compare/opening";
 import { late } from "./late";
 import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
@@ -54,9 +53,6 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
     <>
       <Header session={session}>
         <ScenarioPicker session={session} actions={actions} />
-        <button type="button" onClick={() => actions.compare(...FIGURES)}>
-          Fig. 6a beside 6b
-        </button>
         <FirstStart readiness={session.firstStart} />
       </Header>
       <main class={session.sceneMaximised.value ? "maximised" : ""}>

@@ -32,7 +32,7 @@ interface Arrived {
 /** Draws and moves the session's picture at its own pace. What it returns takes the ticks that arrive. */
 export function drawPictures(
   store: FlightStore,
-  { shown, flight, ndMode, ndRange }: Session,
+  { shown, flight, ndMode, ndRange, recording }: Session,
 ): (tick: Tick, wall: number) => void {
   let arrived: Arrived[] = [];
   let timer: ReturnType<typeof setTimeout> | null = null;
@@ -40,7 +40,8 @@ export function drawPictures(
 
   function draw(wall: number): void {
     batch(() => {
-      for (const each of arrived) store.receive(each.tick, each.wall);
+      // What was on its way when a recording took the flight's place is not shown any more.
+      if (recording.value === null) for (const each of arrived) store.receive(each.tick, each.wall);
       arrived = [];
       store.advance(wall);
     });

@@ -112,7 +112,7 @@ test("each has its time, its word and a verdict with a sign and a word; the chos
   expect(rows[3]).toContain("\u221290.8 sRSL0.2\u2715not flown");
   expect(place.querySelector(".proof")?.textContent).toBe("Exact: Nothing is faster.");
   const printed = [...place.querySelectorAll("button")].find(
-    ({ textContent }) => textContent === "As printed",
+    ({ textContent }) => textContent === "Printed",
   );
   act(() => printed?.click());
   expect(place.querySelector(".proof")?.textContent).toContain("it ends 9.44 NM from the slot");

@@ -4,7 +4,7 @@ import time
 
 import pytest
 from relguide_server.app import create_app
-from relguide_server.flights.catalogue import library_catalogue
+from relguide_server.flights.catalogue import FAN_PAUSE, library_catalogue, not_too_often
 from relguide_server.flights.routes import NewFlight
 from relguide_server.planning.plans import EXAMPLE
 from relguide_server.settings import ServiceSettings
@@ -114,3 +114,15 @@ def test_a_time_to_keep_behind_the_leader_can_be_asked_for() -> None:
         refused = client.post("/api/v1/flights", json={**body, "spacing_time_s": 0.0})
         assert refused.status_code == 422
         assert refused.json()["errors"][0]["path"] == "spacing_time_s"
+
+
+def test_a_fan_is_wanted_twice_a_second_at_most_however_fast_it_flies() -> None:
+    now = 100.0
+    wants = not_too_often(lambda: now)
+    assert wants(0.0)
+    assert not wants(5.0)
+    now += FAN_PAUSE / 2.0
+    assert not wants(30.0)
+    now += FAN_PAUSE
+    assert wants(60.0)
+    assert not wants(60.0)

@@ -88,8 +88,13 @@ function createModel({ flight, history, comparison }: Session) {
   const plan = computed(() => shownPlan(flight.read.value));
   const forecast = computed(() => flight.read.value.forecast);
   const route = computed(() => flight.read.value.route);
+  // No more often than numbers are read, however fast it flies.
+  const revision = computed(() => {
+    void flight.read.value;
+    return flight.revision.peek();
+  });
   const strips = computed(() => {
-    void [flight.id.value, flight.revision.value, plan.value, forecast.value, route.value];
+    void [flight.id.value, revision.value, plan.value, forecast.value, route.value];
     const compared = comparison.other.value;
     const other =
       compared === null

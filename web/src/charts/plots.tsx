@@ -82,7 +82,7 @@ export function Strips({ session, actions, strips, window }: StripsProps) {
           key={`${strip.name} ${strip.lines.length}`}
           strip={strip}
           window={window.value}
-          t={read.value.t}
+          t={Math.min(read.value.t, last)}
           palette={session.distinctColours.value ? "distinct" : "usual"}
         />
       ))}

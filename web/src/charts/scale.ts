@@ -20,7 +20,7 @@ export function boundsOf(strip: Strip, from: number, to: number): [number, numbe
     low = Math.min(low, value);
     high = Math.max(high, value);
   }
-  const room = Math.max(0.06 * (high - low), 1e-3 * Math.max(1, Math.abs(high)));
+  const room = Math.max(0.06 * (high - low), 1e-2 * Math.max(1, Math.abs(high)));
   return [low - room, high + room];
 }
 

@@ -28,7 +28,7 @@ export function createComparison(flight: Flight, history: () => History): Compar
   const other = signal<Compared | null>(null);
   const how = signal<Alignment>("engaged");
   const offset = computed(() => {
-    void flight.revision.value;
+    void flight.read.value; // no more often than it is read
     return other.value === null ? null : alignment(history(), other.value.history, how.value);
   });
   const ghost = computed(() => {

@@ -1,18 +1,10 @@
-/** Flights to compare, by how the address names them: `scenario:fig_6a`, `record:3f2a9c0d71be`. */
+/** Fetches and reads the flights that are compared: loaded when the first one is. */
 
 import { type Answer, flyScenario, readRecord } from "../api";
 import { createHistory } from "../store/history";
 import { readFile, titleOf } from "../timeline/opening";
 import type { Compared } from "./compared";
-
-/** The two of the paper's conclusion. */
-export const FIGURES = ["scenario:fig_6a", "scenario:fig_6b"] as const;
-
-/** The flights that an address compares: two, or one that is seen beside the flight it shows. */
-export function referencesIn(address: URLSearchParams): string[] {
-  const text = address.get("compare") ?? "";
-  return text.split(",").filter((each) => each !== "");
-}
+import { splitReference } from "./references";
 
 /** The recording that a reference names. */
 export async function fetchReference(reference: string): Promise<Answer<Blob>> {
@@ -24,11 +16,6 @@ export async function fetchReference(reference: string): Promise<Answer<Blob>> {
     status: 0,
     sentence: `“${reference}” names no flight: scenario:fig_6a or record:… would.`,
   };
-}
-
-export function splitReference(reference: string): [kind: string, name: string] {
-  const at = reference.indexOf(":");
-  return at < 0 ? ["", reference] : [reference.slice(0, at), reference.slice(at + 1)];
 }
 
 /** What is to be compared, or in a sentence why it cannot be. */

@@ -45,7 +45,7 @@ export function ComparePanel({ session, actions }: { session: Session; actions: 
   const { comparison, flight, history } = session;
   const { other, how, offset } = comparison;
   const own = useComputed(() => {
-    void flight.revision.value;
+    void flight.read.value; // no more often than it is read
     return figuresOf(history());
   });
   const theirs = useComputed(() => (other.value === null ? null : figuresOf(other.value.history)));

@@ -29,7 +29,7 @@ export function Alternatives(props: {
           ideal times
           {props.compare !== undefined && (
             <button type="button" class="link" onClick={props.compare}>
-              Compare planners
+              Planners
             </button>
           )}
         </span>

@@ -1,5 +1,6 @@
 /** What is flown, to begin it anew or end it; and what became of the last command. */
 
+import { FIGURES } from "../compare/references";
 import { Icon, Panel } from "../parts";
 import { type Actions, type Feedback, isFlying, type Session } from "../session";
 
@@ -27,6 +28,13 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
           End
         </button>
       </div>
+      <button
+        type="button"
+        title="Both figures of the paper flown at once, one beside the other"
+        onClick={() => actions.compare(...FIGURES)}
+      >
+        Fig. 6a beside 6b
+      </button>
       <FeedbackLine feedback={feedback.value} />
     </Panel>
   );

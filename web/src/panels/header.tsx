@@ -14,7 +14,7 @@ const CONNECTION_TEXT: Record<Connection, string> = {
 };
 
 export function Header(props: { session: Session; children?: ComponentChildren }) {
-  const { chartsOpen, helpOpen, recordsOpen, sound } = props.session;
+  const { helpOpen, recordsOpen, sound } = props.session;
   return (
     <header class="top">
       <h1>
@@ -24,18 +24,6 @@ export function Header(props: { session: Session; children?: ComponentChildren }
       <div class="top-middle">{props.children}</div>
       <SimClock session={props.session} />
       <ConnectionState session={props.session} />
-      <button
-        type="button"
-        class="quiet"
-        aria-pressed={chartsOpen.value}
-        title="The flight over time, in the scene's place (G)"
-        onClick={() => {
-          chartsOpen.value = !chartsOpen.value;
-        }}
-      >
-        <Icon name="charts" />
-        <span class="word">Charts</span>
-      </button>
       <button
         type="button"
         class="quiet"

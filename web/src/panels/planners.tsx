@@ -10,7 +10,7 @@ const NAMES: Record<ComparedPlanner, string> = {
   exact: "Exact",
   network: "Network",
   regular_dp: "Tree",
-  printed_network: "As printed",
+  printed_network: "Printed",
 };
 
 /** A sign and a word for each. */

@@ -11,7 +11,7 @@ import {
   useSignalEffect,
 } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { Icon } from "../parts";
+import { Icon, set } from "../parts";
 import type { Actions, Session } from "../session";
 import type { Shown } from "../store/picture";
 import { SceneBar } from "./bar";
@@ -113,6 +113,15 @@ export function Scene({ session, actions }: Props) {
             </button>
           ))}
         </fieldset>
+        <button
+          type="button"
+          class="quiet"
+          title="The flight over time, in the scene's place (G)"
+          onClick={set(session.chartsOpen, true)}
+        >
+          <Icon name="charts" />
+          Charts
+        </button>
         <button
           type="button"
           class="quiet"

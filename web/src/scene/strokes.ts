@@ -69,7 +69,8 @@ export function strokesOf(
   const other = now.leader.altitude_m;
   const strokes: Stroke[] = groundLines(middleOf(now), glass);
   const add = (name: string, d: string, look: Omit<Stroke, "name" | "d">) => {
-    if (d !== "") strokes.push({ name, d, ...look });
+    // of an aircraft that is out of sight no corner is left
+    if (d.startsWith("M")) strokes.push({ name, d, ...look });
   };
   const hue = leaderColour(picture);
   add("own-drop", dropLine(now.pursuer, glass), { colour: "ownship", width: 1, dash: "" });

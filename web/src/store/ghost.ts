@@ -46,14 +46,23 @@ export function ghostOf(
 }
 
 /** Where a flight's pursuer has been, up to flight time `t` [s]. */
-function flownUntil({ knots }: History, t: number): Place[] {
-  const [times, x, y] = [
-    knots.column("t_s"),
-    knots.column("pursuer.x_m"),
-    knots.column("pursuer.y_m"),
-  ];
-  const places: Place[] = [];
-  for (let k = 0; k < times.length && (times[k] ?? 0) < t; k += STEP)
-    places.push({ x_m: x[k] ?? 0, y_m: y[k] ?? 0 });
-  return places;
+function flownUntil(history: History, t: number): readonly Place[] {
+  const path = pathOf(history);
+  const next = path.findIndex((point) => point.t >= t);
+  return next < 0 ? path : path.slice(0, next);
+}
+
+type Point = Place & { readonly t: number };
+const paths = new WeakMap<History, { readonly count: number; readonly path: readonly Point[] }>();
+
+/** All that a flight's pursuer has flown; made anew when more is known. */
+function pathOf(history: History): readonly Point[] {
+  const { knots } = history;
+  const made = paths.get(history);
+  if (made?.count === knots.count) return made.path;
+  const [x, y] = [knots.column("pursuer.x_m"), knots.column("pursuer.y_m")];
+  const path = Array.from(knots.column("t_s"), (t, k) => ({ t, x_m: x[k] ?? 0, y_m: y[k] ?? 0 }));
+  const thin = path.filter((_, k) => k % STEP === 0);
+  paths.set(history, { count: knots.count, path: thin });
+  return thin;
 }

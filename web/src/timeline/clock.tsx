@@ -165,6 +165,9 @@ function TimeField({ session, actions }: { session: Session; actions: Actions })
         onInput={(event) => {
           typed.value = event.currentTarget.value;
         }}
+        onKeyDown={(event) => {
+          if (event.key === "Enter") take(event.currentTarget);
+        }}
         onChange={(event) => take(event.currentTarget)}
         onBlur={() => {
           typed.value = null;

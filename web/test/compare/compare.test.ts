@@ -1,9 +1,12 @@
 import { describe, expect, test } from "vitest";
 import { alignment } from "../../src/compare/alignment";
+import { createComparison } from "../../src/compare/compared";
 import { countFigures, figuresOf } from "../../src/compare/figures";
+import { referencesIn, splitReference } from "../../src/compare/references";
+import { createFlightStore } from "../../src/store/flight";
 import { ghostOf } from "../../src/store/ghost";
 import { createHistory } from "../../src/store/history";
-import { historyOf } from "../flights/recorded";
+import { documentsOf, historyOf } from "../flights/recorded";
 
 const [A, B] = [historyOf("fig_6a"), historyOf("fig_6b")];
 
@@ -63,4 +66,30 @@ test("the other flight stands where it was at its own time, its leader only wher
   expect(later?.leader?.x_m).toBeLessThan(now?.leader.x_m ?? 0);
   expect(ghostOf(A, now, { name: "6B", history: B, t: 1200 })?.isOutside).toBe(true);
   expect(ghostOf(A, null, { name: "6B", history: B, t: 0 })).toBeNull();
+});
+
+test("the ghost follows the clock of the shown flight, aligned as is chosen", () => {
+  const store = createFlightStore();
+  const { other, how, offset, ghost } = createComparison(store.flight, store.history);
+  store.load("fig_6a", documentsOf("fig_6a"), 0);
+  expect(ghost.value).toBeNull();
+  other.value = { reference: "scenario:fig_6b", title: "6b", history: B };
+  store.seek(1016, 0, 0);
+  expect(ghost.value?.name).toBe("FIG 6B");
+  expect(ghost.value?.pursuer).toEqual(B.knots.sampleAt(1016)?.pursuer);
+  how.value = "slot";
+  expect(offset.value).toBe(-100);
+  expect(ghost.value?.pursuer).toEqual(B.knots.sampleAt(916)?.pursuer);
+  store.seek(50, 0, 0);
+  expect(ghost.value?.isOutside).toBe(true);
+});
+
+test("the address names what is compared", () => {
+  expect(referencesIn(new URLSearchParams("compare=scenario:fig_6a,record:3f"))).toEqual([
+    "scenario:fig_6a",
+    "record:3f",
+  ]);
+  expect(referencesIn(new URLSearchParams(""))).toEqual([]);
+  expect(splitReference("record:a:b")).toEqual(["record", "a:b"]);
+  expect(splitReference("nothing")).toEqual(["", "nothing"]);
 });
