@@ -12,7 +12,8 @@ from tests.junk import junk
 ANSWERS = {
     "Alert", "Alternative", "Arrival", "Candidate", "Certificate", "Document", "EngagementChanged",
     "FanChanged", "FlightEnded", "FlightStarted", "ForecastChanged", "Isochrones", "LeaderChanged",
-    "LeaderRoute", "ModeChanged", "NoPlan", "Optimality", "OptimalityReport", "Plan", "PlanChanged",
+    "LeaderRoute", "ModeChanged", "NoPlan", "Optimality", "OptimalityReport", "Picture", "Plan",
+    "PlanChanged",
     "PlanProposed", "PlanRefused", "PlanUnavailable", "Planner", "Pose", "PromiseChanged", "Reason",
     "Sample", "Samples", "SeparationLost", "TimeRow", "Times", "Unable",
 }  # fmt: skip
@@ -21,8 +22,8 @@ UNIONS = {"Command"}
 """What is one of several that are called."""
 PARTS = {"Arc", "BoundaryArc", "DeclaredLeader", "Guided", "RecordedTrack", "Straight"}
 """What a `Trajectory` or a `Scenario` checks as it is made of them."""
-FILES = {"load_airframe", "load_settings", "load_track", "replay"}
-"""What reads a file: tests of its own say what it refuses."""
+FILES = {"Flight", "load_airframe", "load_settings", "load_track", "picture", "replay"}
+"""What reads a file or a flight's documents: tests of its own say what it refuses."""
 METHODS = {"from_trajectory", "over_ground", "pose_at", "sample"}
 ARGUMENTS = [(name, argument) for name, (_, given) in CALLS.items() for argument in given]
 
