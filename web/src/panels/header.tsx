@@ -50,7 +50,7 @@ export function Header(props: { session: Session; children?: ComponentChildren }
         type="button"
         class="quiet"
         aria-expanded={helpOpen.value}
-        aria-controls="help"
+        {...(helpOpen.value && { "aria-controls": "help" })}
         onClick={() => {
           helpOpen.value = !helpOpen.value;
         }}
