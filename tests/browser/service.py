@@ -65,7 +65,7 @@ def running_service(folder: Path, port: int | None = None) -> Iterator[Service]:
             stderr=subprocess.STDOUT,
             env={
                 **os.environ,
-                "RELGUIDE_RECORDS": "off",
+                "RELGUIDE_DATA": str(folder),
                 "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "server"))),
             },
         )

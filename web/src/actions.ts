@@ -18,7 +18,14 @@ import { OTHER_VERSION, openStream, type Stream } from "./stream";
 import { lookAs } from "./timeline/link";
 import { createMoves } from "./timeline/moves";
 import { readFile, titleOf } from "./timeline/opening";
-import { formatHeading, formatKnots, inPageUnits, readClockText, wrap360 } from "./units";
+import {
+  formatClock,
+  formatHeading,
+  formatKnots,
+  inPageUnits,
+  readClockText,
+  wrap360,
+} from "./units";
 import {
   type Command,
   type Direction,
@@ -129,8 +136,8 @@ export function createActions(
   async function openFlown(id: string, t: number | null): Promise<void> {
     const answer = await readRecord(id);
     if (answer.kind === "done") {
-      await replay(answer.value, { id, from: "record" });
-      if (t !== null) own.moves.seek(t);
+      const isShown = await replay(answer.value, { id, from: "record" });
+      if (isShown && t !== null) seekKnown(t);
       return;
     }
     await begin(requestOf(FIRST_SCENARIO));
@@ -142,10 +149,37 @@ export function createActions(
     if (status.t_s > BEGUN && status.recorded) {
       const answer = await readRecord(status.id);
       const read = answer.kind === "done" ? await readFile(answer.value) : null;
-      if (session.flight.id.value !== status.id) return; // another one is shown by now
+      await beginning(status.id);
+      if (session.status.value?.id !== status.id) return; // another one is shown by now
       if (read?.kind === "read") store.merge(read.documents, performance.now());
     }
-    if (t !== null) own.moves.seek(t);
+    if (t === null) return;
+    await beginning(status.id);
+    seekKnown(t);
+  }
+
+  /** When the first that is known of a flight is there, or another one is shown. */
+  function beginning(id: string): Promise<void> {
+    const { flight, status } = session;
+    return new Promise((resolve) => {
+      const stop = effect(() => {
+        const isThere = flight.id.value === id && flight.span.value !== null;
+        if (!isThere && status.value?.id === id) return;
+        resolve();
+        queueMicrotask(() => stop());
+      });
+    });
+  }
+
+  /** Shows the flight time of a link; one that is not known is refused, and all stays as it was. */
+  function seekKnown(t: number): void {
+    const { first, last } = session.flight.span.value ?? { first: 0, last: 0 };
+    if (t >= first && t <= last) own.moves.seek(t);
+    else
+      say(
+        "refused",
+        `The link asks for ${formatClock(t)}. The flight is known from ${formatClock(first)} to ${formatClock(last)}.`,
+      );
   }
 
   /** Shows a recording in place of the flight; what is wrong with it is said, and all stays as it was. */

@@ -1,6 +1,6 @@
 /** Links to an instant: `?flight=…&t=560&nd=ARC&range=40` is what is shown, and shows it again. */
 
-import { effect } from "@preact/signals";
+import { computed, effect } from "@preact/signals";
 import { ND_RANGES, type Session } from "../session";
 
 /** Browsers take so many changes of the address and no more: it follows when the hand rests [ms]. */
@@ -21,10 +21,14 @@ export function lookAs({ ndMode, ndRange, ndAuto }: Session, link: URLSearchPara
 export function followInstant(session: Session): void {
   const { flight, ndMode, ndAuto, ndRange } = session;
   let timer: ReturnType<typeof setTimeout> | undefined;
-  effect(() => {
-    const { source } = flight;
+  // A flight that flies on draws the instant that stands again and again.
+  const standing = computed(() => {
+    const { source, moment } = flight;
     const isStanding = source.value.kind === "replay" && source.value.rate === 0;
-    const t = isStanding ? String(Math.round(flight.moment.value.t * 10) / 10) : null;
+    return isStanding ? String(Math.round(moment.value.t * 10) / 10) : null;
+  });
+  effect(() => {
+    const t = standing.value;
     const mode = ndMode.value;
     const range = ndAuto.value || mode === "PLAN" ? null : String(ndRange.value);
     clearTimeout(timer);
