@@ -95,6 +95,12 @@ export function createActions(
   let isGrounded = false;
 
   async function open(address: URLSearchParams): Promise<void> {
+    session.isOpening.value = true;
+    await openAs(address);
+    session.isOpening.value = false;
+  }
+
+  async function openAs(address: URLSearchParams): Promise<void> {
     engagement = address.has("engaged") ? "engaged" : "off";
     const joined = address.get("flight");
     void loadScenarios();

@@ -49,6 +49,8 @@ export interface Session {
   readonly history: () => History;
   /** What is shown in place of a flight that flies; null while one does. */
   readonly recording: Signal<Recording | null>;
+  /** Whether what the address asks for is still on its way. */
+  readonly isOpening: Signal<boolean>;
   /** How fast the page's own clock runs when it does [s of flight per s]. */
   readonly replayRate: Signal<number>;
   /** Why a typed time was not taken; "" if it was. */
@@ -149,6 +151,7 @@ export function createSession(
     flight,
     history,
     recording: signal(null),
+    isOpening: signal(false),
     replayRate: signal(1),
     timeRefusal: signal(""),
     recordsOpen: signal(false),

@@ -27,23 +27,27 @@ export function followInstant(session: Session): void {
     const isStanding = source.value.kind === "replay" && source.value.rate === 0;
     return isStanding ? String(Math.round(moment.value.t * 10) / 10) : null;
   });
+  const chosen = computed(() =>
+    ndAuto.value || ndMode.value === "PLAN" ? null : String(ndRange.value),
+  );
+  const write = () => {
+    // What a link asks for stays there until it is shown.
+    if (session.isOpening.value) return;
+    const address = new URL(location.href);
+    const before = address.href;
+    const put = (name: string, value: string | null) => {
+      if (value === null) address.searchParams.delete(name);
+      else address.searchParams.set(name, value);
+    };
+    if (!["flight", "compare"].some((name) => address.searchParams.has(name))) return;
+    put("t", standing.value);
+    put("nd", ndMode.value === "ROSE" ? "ROSE" : null);
+    put("range", chosen.value);
+    if (address.href !== before) history.replaceState(history.state, "", address);
+  };
   effect(() => {
-    const t = standing.value;
-    const mode = ndMode.value;
-    const range = ndAuto.value || mode === "PLAN" ? null : String(ndRange.value);
+    void [standing.value, ndMode.value, chosen.value, session.isOpening.value];
     clearTimeout(timer);
-    timer = setTimeout(() => {
-      const address = new URL(location.href);
-      const before = address.href;
-      const put = (name: string, value: string | null) => {
-        if (value === null) address.searchParams.delete(name);
-        else address.searchParams.set(name, value);
-      };
-      if (!["flight", "compare"].some((name) => address.searchParams.has(name))) return;
-      put("t", t);
-      put("nd", mode === "ROSE" ? mode : null);
-      put("range", range);
-      if (address.href !== before) history.replaceState(history.state, "", address);
-    }, REST);
+    timer = setTimeout(write, REST);
   });
 }
