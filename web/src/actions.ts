@@ -84,12 +84,15 @@ export function createActions(
   /** Whether a flight that went on for an acceptance stands again once that is taken, and waits until it is engaged. */
   let standsAgain = false;
   let waits = false;
+  /** How many addresses were opened: an answer to an earlier one comes too late. */
+  let opened = 0;
   /** Whether the page began with the map alone, so that nothing flies yet. */
   let isGrounded = false;
 
   async function open(address: URLSearchParams): Promise<void> {
     engagement = address.has("engaged") ? "engaged" : "off";
-    const joined = address.get("flight");
+    const joined = address.get("flight") || null; // an empty name is none
+    const turn = ++opened;
     void loadScenarios();
     if (address.has("plan")) {
       (await import("./map/room")).layOut(session, address);
@@ -115,6 +118,7 @@ export function createActions(
       return;
     }
     const answer = await readFlight(joined);
+    if (turn !== opened) return; // another address is shown by now
     if (answer.kind === "done") {
       show(answer.value);
       await lookBack(answer.value, readClockText(address.get("t") ?? ""));
@@ -127,7 +131,9 @@ export function createActions(
 
   /** A flight that is no longer in the air: from the records if it is there, else a new one is begun. */
   async function openFlown(id: string, t: number | null): Promise<void> {
+    const turn = opened;
     const answer = await readRecord(id);
+    if (turn !== opened) return;
     if (answer.kind === "done") {
       await replay(answer.value, { id, from: "record" });
       if (t !== null) own.moves.seek(t);
@@ -188,7 +194,9 @@ export function createActions(
     clearInterval(waiting);
     const refused = [shown, beside].find((each) => each.kind === "refused");
     if (shown.kind === "refused" || beside.kind === "refused") {
-      if (session.status.value === null) await begin(requestOf(FIRST_SCENARIO));
+      noteComparison([]);
+      const isEmpty = session.status.value === null && session.recording.value === null;
+      if (isEmpty) await begin(requestOf(FIRST_SCENARIO));
       say("refused", refused?.kind === "refused" ? refused.sentence : "");
       return;
     }
