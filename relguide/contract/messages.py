@@ -396,6 +396,8 @@ class FlightStatus(Strict):
     """Of its random numbers, as asked for: with the same version it gives the same flight."""
     version: str
     """Of the software that flies it."""
+    recorded: bool
+    """Whether it is on record: `GET /records/flights/{id}` knows it."""
 
 
 class FlightList(Strict):

@@ -25,7 +25,7 @@ def test_a_crew_lays_out_flies_joins_loses_its_leader_and_disconnects(
     expect(lateral).to_have_text("HDG")
     page.get_by_role("button", name="PLAN", exact=True).click()
     page.get_by_role("button", name="Fig. 6b").click()
-    expect(page.locator(".map-bench .headline-figure")).to_have_text("15:04")
+    expect(page.locator(".map-bench .headline-figure")).to_have_text("15:16")
     north = page.get_by_role("spinbutton", name="Own ship: north")
     before = north.input_value()
     drag(page, "own", by=(0.4, -0.4))

@@ -8,8 +8,9 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from relguide.contract.recorder import record
+from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
-from relguide.flying.simulation import simulate
+from relguide.planning.plan import plan
 from tests.browser.service import Service, Watch
 
 TURN = 819
@@ -100,7 +101,7 @@ def test_a_file_is_shown_and_a_broken_one_says_its_line(
     page: Page, watched: Watch, sky: Service, tmp_path: Path
 ) -> None:
     whole, cut = tmp_path / "flight.jsonl.gz", tmp_path / "cut.jsonl"
-    for _ in record(simulate(scenario("fig_6b")), whole):
+    for _ in record(fly(scenario("fig_6b"), plan), whole):
         pass
     page.goto(sky.url)
     expect(page.locator(".connection")).to_have_text("Live")

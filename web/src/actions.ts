@@ -145,7 +145,7 @@ export function createActions(
 
   /** What was flown before this page came, as far as it is on record; then shows flight time `t` [s]. */
   async function lookBack(status: FlightStatus, t: number | null): Promise<void> {
-    if (status.t_s > BEGUN) {
+    if (status.t_s > BEGUN && status.recorded) {
       const answer = await readRecord(status.id);
       const read = answer.kind === "done" ? await readFile(answer.value) : null;
       if (session.flight.id.value !== status.id) return; // another one is shown by now

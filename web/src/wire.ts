@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-e40f07ef4709";
+export const PROTOCOL = "relguide-723442a8cc3d";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -464,6 +464,7 @@ export interface FlightStatus {
   scene_url: string;
   seed: number;
   version: string;
+  recorded: boolean;
 }
 
 /** The flight of a plan's situation, guidance engaged at once: rolls and braking included. */

@@ -28,6 +28,7 @@ function flying(answer: Response) {
     scene_url: "",
     seed: 0,
     version: "1.0.0",
+    recorded: true,
   };
   return { asked, session, actions: createActions(session, store) };
 }

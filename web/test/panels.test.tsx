@@ -68,6 +68,7 @@ function flying() {
     scene_url: "/scene/one/",
     seed: 0,
     version: "1.0.0",
+    recorded: true,
   };
   return { store, session, actions: silentActions() };
 }

@@ -92,6 +92,11 @@ class LiveFlight:
         return bool(self.history.ended) or self.broken or self._shown
 
     @property
+    def recorded(self) -> bool:
+        """Whether it is on record."""
+        return self._recording.keeps
+
+    @property
     def watched(self) -> bool:
         """Whether a stream or a scene is open on it."""
         return bool(self.clients) or self.scene_viewers > 0

@@ -276,6 +276,7 @@ def status_of(flight: LiveFlight, request: Request) -> FlightStatus:
         scene_url=f"{root}/scene/{label.id}/",
         seed=label.seed,
         version=VERSION,
+        recorded=flight.recorded,
     )
 
 

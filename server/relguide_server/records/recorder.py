@@ -13,6 +13,9 @@ SAMPLE_PERIOD: Second = 1.0
 class Recorder:
     """Takes the documents of one flight. This one keeps nothing."""
 
+    keeps = False
+    """Whether what it takes can be asked for."""
+
     def add(self, document: Document) -> None:
         """Record a document, which is newer than all before."""
 
@@ -22,6 +25,8 @@ class Recorder:
 
 class FlightRecorder(Recorder):
     """Passes the documents of one flight to the writer; of samples, one a second."""
+
+    keeps = True
 
     def __init__(self, flight_id: str, writer: Writer, clock: Clock) -> None:
         self._flight_id, self._writer, self._clock = flight_id, writer, clock

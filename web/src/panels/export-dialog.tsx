@@ -8,11 +8,12 @@ import type { Session } from "../session";
 import { Export } from "./export";
 
 export function ExportDialog({ session }: { session: Session }) {
-  const { exportOpen, flight, recording, shown, ndMode, ndAuto, ndRange } = session;
+  const { exportOpen, flight, recording, status, shown, ndMode, ndAuto, ndRange } = session;
   const dialog = useRef<HTMLDivElement>(null);
   const startedAt = useSignal<string | null>(null);
   const id = flight.id.value ?? "";
-  const isFile = recording.value?.from === "file";
+  const isRecorded =
+    recording.value === null ? status.value?.recorded === true : recording.value.from === "record";
   useEffect(() => {
     const before = document.activeElement;
     dialog.current?.focus();
@@ -22,11 +23,11 @@ export function ExportDialog({ session }: { session: Session }) {
   }, []);
   useEffect(() => {
     startedAt.value = null;
-    if (id === "" || isFile) return;
+    if (id === "" || !isRecorded) return;
     void readRecorded(id).then((answer) => {
       if (answer.kind === "done") startedAt.value = answer.value.started_at;
     });
-  }, [id, isFile, startedAt]);
+  }, [id, isRecorded, startedAt]);
   return (
     <div
       class="help export-dialog"
