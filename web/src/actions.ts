@@ -70,7 +70,7 @@ function sayHeading(heading: number): string {
 /** The actions of a page, and `open`, which begins: joins the flight of the address, or starts one. */
 export function createActions(
   session: Session,
-  store: Pick<FlightStore, "receive" | "link" | "load" | "merge" | "seek" | "follow">,
+  store: Pick<FlightStore, "receive" | "link" | "load" | "merge" | "seek" | "follow" | "end">,
 ): Actions & { open(address: URLSearchParams): Promise<void> } {
   const own = createMoves(session, store);
   let stream: Stream | null = null;
@@ -321,8 +321,7 @@ export function createActions(
       },
       refused(code, sentence) {
         // What was flown stays on show, and can be looked at again.
-        const { clock } = session.flight;
-        if (code !== OTHER_VERSION) clock.value = { ...clock.value, ended: true };
+        if (code !== OTHER_VERSION) store.end(performance.now());
         session.outage.value =
           code === OTHER_VERSION
             ? { kind: "other_version", text: sentence || "The server is of another version." }
