@@ -77,7 +77,7 @@ function sayHeading(heading: number): string {
 /** The actions of a page, and `open`, which begins: joins the flight of the address, or starts one. */
 export function createActions(
   session: Session,
-  store: Pick<FlightStore, "receive" | "link" | "load" | "merge" | "seek" | "follow">,
+  store: Pick<FlightStore, "receive" | "link" | "load" | "merge" | "seek" | "follow" | "end">,
 ): Actions & { open(address: URLSearchParams): Promise<void> } {
   const own = createMoves(session, store);
   let stream: Stream | null = null;
@@ -91,6 +91,8 @@ export function createActions(
   /** Whether a flight that went on for an acceptance stands again once that is taken, and waits until it is engaged. */
   let standsAgain = false;
   let waits = false;
+  /** How many addresses were opened: an answer to an earlier one comes too late. */
+  let opened = 0;
   /** Whether the page began with the map alone, so that nothing flies yet. */
   let isGrounded = false;
 
@@ -102,7 +104,8 @@ export function createActions(
 
   async function openAs(address: URLSearchParams): Promise<void> {
     engagement = address.has("engaged") ? "engaged" : "off";
-    const joined = address.get("flight");
+    const joined = address.get("flight") || null; // an empty name is none
+    const turn = ++opened;
     void loadScenarios();
     if (address.has("plan")) {
       (await import("./map/room")).layOut(session, address);
@@ -128,6 +131,7 @@ export function createActions(
       return;
     }
     const answer = await readFlight(joined);
+    if (turn !== opened) return; // another address is shown by now
     if (answer.kind === "done") {
       show(answer.value);
       await lookBack(answer.value, readClockText(address.get("t") ?? ""));
@@ -140,7 +144,9 @@ export function createActions(
 
   /** A flight that is no longer in the air: from the records if it is there, else a new one is begun. */
   async function openFlown(id: string, t: number | null): Promise<void> {
+    const turn = opened;
     const answer = await readRecord(id);
+    if (turn !== opened) return;
     if (answer.kind === "done") {
       const isShown = await replay(answer.value, { id, from: "record" });
       if (isShown && t !== null) seekKnown(t);
@@ -228,7 +234,9 @@ export function createActions(
     clearInterval(waiting);
     const refused = [shown, beside].find((each) => each.kind === "refused");
     if (shown.kind === "refused" || beside.kind === "refused") {
-      if (session.status.value === null) await begin(requestOf(FIRST_SCENARIO));
+      noteComparison([]);
+      const isEmpty = session.status.value === null && session.recording.value === null;
+      if (isEmpty) await begin(requestOf(FIRST_SCENARIO));
       say("refused", refused?.kind === "refused" ? refused.sentence : "");
       return;
     }
@@ -353,8 +361,7 @@ export function createActions(
       },
       refused(code, sentence) {
         // What was flown stays on show, and can be looked at again.
-        const { clock } = session.flight;
-        if (code !== OTHER_VERSION) clock.value = { ...clock.value, ended: true };
+        if (code !== OTHER_VERSION) store.end(performance.now());
         session.outage.value =
           code === OTHER_VERSION
             ? { kind: "other_version", text: sentence || "The server is of another version." }

@@ -140,3 +140,34 @@ test("what stands at its beginning goes on for an acceptance, and stands again o
   actions.engage("off");
   await vi.waitFor(() => expect(commands().slice(5)).toEqual(["set_engagement"]));
 });
+
+test("a comparison that is refused leaves a recording on show, and its address", async () => {
+  const replaced = vi.fn();
+  vi.stubGlobal("location", { href: "http://here/?flight=three&compare=nonsense,other" });
+  vi.stubGlobal("history", { state: null, replaceState: replaced });
+  const { asked, session, actions } = flying(new Response("", { status: 204 }));
+  session.status.value = null;
+  session.recording.value = { id: "three", title: "Fig. 6a", from: "record" };
+  actions.compare("nonsense", "other");
+  await vi.waitFor(() => expect(session.feedback.value.kind).toBe("refused"));
+  expect(asked).not.toHaveBeenCalled();
+  expect(String(replaced.mock.lastCall?.[2])).toBe("http://here/?flight=three");
+});
+
+test("an address with an empty flight begins one", async () => {
+  const { asked, actions } = flying(problem(422, "There is no scenario 'x'."));
+  await actions.open(new URLSearchParams("flight=&scenario=x"));
+  expect(asked.mock.calls.map(([path, init]) => [path, init?.method])).toContainEqual([
+    "api/v1/flights",
+    "POST",
+  ]);
+});
+
+test("an answer to an earlier address comes too late", async () => {
+  const { session, actions } = flying(problem(404, "There is no flight 'one'."));
+  session.status.value = null;
+  const first = actions.open(new URLSearchParams("flight=one"));
+  void actions.open(new URLSearchParams("flight=two"));
+  await first;
+  expect(session.feedback.value.kind).toBe("none");
+});

@@ -34,6 +34,8 @@ export interface FlightStore {
   seek(t: number, rate: number, wall: number): void;
   /** Shows the newest there is, and what comes. */
   follow(wall: number): void;
+  /** Stands at the newest: the flight is no more, though what is on its way may still arrive. */
+  end(wall: number): void;
   /** Notes what became of the socket. */
   link(state: Link): void;
 }
@@ -74,6 +76,7 @@ export function createFlightStore(): FlightStore {
   let fresh = Number.NEGATIVE_INFINITY; // wall time at which the data were last known to be new [ms]
   let drawn = { revision: -1, moment: NO_MOMENT }; // the last one replayed
   let linked: Link = "connecting";
+  let isOver = false; // nothing comes any more but what is on its way
   let readAt = Number.NEGATIVE_INFINITY;
   let held = 0; // how much is known of the flight
   let offset: { gap: Gap; wall: number } = { gap: NO_GAP, wall: 0 };
@@ -86,6 +89,7 @@ export function createFlightStore(): FlightStore {
     fresh = Number.NEGATIVE_INFINITY;
     readAt = Number.NEGATIVE_INFINITY;
     offset = { gap: NO_GAP, wall: 0 };
+    isOver = false;
     flight.id.value = id;
     flight.source.value = { kind: "live" };
     flight.loop.value = null;
@@ -104,9 +108,10 @@ export function createFlightStore(): FlightStore {
       else history.take(tick.documents);
       if (tick.documents.some(({ kind }) => kind === "engagement_changed"))
         flight.isSent.value = false;
-      const running = tick.paused || tick.ended ? 0 : tick.rate;
+      const ended = tick.ended || isOver;
+      const running = tick.paused || ended ? 0 : tick.rate;
       clock = setClock(clock, { t: tick.t_s, rate: running, wall });
-      flight.clock.value = { rate: tick.rate, paused: tick.paused, ended: tick.ended };
+      flight.clock.value = { rate: tick.rate, paused: tick.paused, ended };
       const sample = newestOf(tick.documents);
       if (sample !== null || running === 0) fresh = wall;
       if (sample !== null) {
@@ -177,7 +182,8 @@ export function createFlightStore(): FlightStore {
   /** The newest there is, carried on to this instant. */
   function liveAt(wall: number): Moment {
     const { rate, ended } = flight.clock.value;
-    const dataAge = Number.isFinite(fresh) ? Math.max(0, (wall - fresh) / 1000) : 0;
+    const ages = !ended && Number.isFinite(fresh); // of what is over, no newer data can come
+    const dataAge = ages ? Math.max(0, (wall - fresh) / 1000) : 0;
     const known = history.knownAt(Number.POSITIVE_INFINITY);
     const seen = history.seenAt(Number.POSITIVE_INFINITY, newsFor(rate));
     const whole = { ...known, ...seen, rate, dataAge, ended, isSent: false };
@@ -246,6 +252,15 @@ export function createFlightStore(): FlightStore {
     });
   }
 
+  function end(wall: number): void {
+    isOver = true;
+    batch(() => {
+      flight.clock.value = { ...flight.clock.value, ended: true };
+      if (newest !== null) clock = { t: newest.t_s, rate: 0, wall };
+      if (flight.source.value.kind === "live") follow(wall);
+    });
+  }
+
   function glide(wall: number): void {
     const { moment, since, source } = flight;
     const behind = source.value.kind === "replay";
@@ -277,6 +292,7 @@ export function createFlightStore(): FlightStore {
     glide,
     seek,
     follow,
+    end,
     link,
   };
 }

@@ -24,7 +24,7 @@ async function read(file: Blob): Promise<Read> {
     }
   } catch (error) {
     const why = error instanceof Error ? error.message : "it cannot be unpacked";
-    return { kind: "refused", sentence: `This file is damaged: ${why}.` };
+    return { kind: "refused", sentence: `This file is damaged: ${why.replace(/\.$/, "")}.` };
   }
   return parseRecording(parts.join(""));
 }

@@ -13,6 +13,9 @@ export type Read =
   | { readonly kind: "read"; readonly documents: Document[] }
   | { readonly kind: "refused"; readonly sentence: string };
 
+/** No flight is longer [s]. */
+const LONGEST = 1e6;
+
 /** What each kind of document has at least. */
 const PARTS: Record<Document["kind"], readonly string[]> = {
   flight_started: ["aircraft", "links", "wind", "title", "planner"],
@@ -101,7 +104,9 @@ function documentProblem(found: unknown): string | null {
   const kind = member(found, "kind");
   if (typeof kind !== "string") return 'it has no "kind"';
   if (!(kind in PARTS)) return `no document is called "${kind.slice(0, 40)}"`;
-  if (typeof member(found, "t_s") !== "number") return `${kind} has no t_s`;
+  const t = member(found, "t_s");
+  if (typeof t !== "number") return `${kind} has no t_s`;
+  if (Math.abs(t) > LONGEST) return `its t_s is ${t}, and no flight is longer than ${LONGEST} s`;
   return (
     missing(found, PARTS[kind as Document["kind"]], kind) ??
     partProblem(found, "aircraft", kind === "sample" ? OF_AIRCRAFT : ["ident"]) ??
@@ -112,7 +117,7 @@ function documentProblem(found: unknown): string | null {
       ? (missing(member(found, "plan"), OF_PLAN, "its plan") ??
         partProblem(member(found, "plan"), "segments", ["kind", "start", "end"]))
       : null) ??
-    numberProblem(found, kind)
+    contentProblem(found, kind)
   );
 }
 
@@ -136,21 +141,40 @@ function partProblem(whole: unknown, name: string, names: readonly string[]): st
 /** A name with a unit is a number, or a list of numbers. */
 const HAS_UNIT = /_(m|s|mps|deg|degps|ms|s_per_deg|s_per_m)$/;
 
-function numberProblem(value: unknown, path: string): string | null {
+/** What is text wherever it stands, and what has members of its own. */
+const IS_TEXT = new Set(["ident", "kind", "message", "mode", "title", "word"]);
+const HAS_MEMBERS = new Set([
+  "answer",
+  "end",
+  "leader_at_closest",
+  "optimality",
+  "plan",
+  "pursuer_at_closest",
+  "reference",
+  "separation",
+  "slot",
+  "start",
+  "wind",
+]);
+
+function contentProblem(value: unknown, path: string): string | null {
   if (Array.isArray(value)) {
     for (const each of value) {
-      const wrong = numberProblem(each, path);
+      const wrong = contentProblem(each, path);
       if (wrong !== null) return wrong;
     }
     return null;
   }
   if (typeof value !== "object" || value === null) return null;
   for (const [name, content] of Object.entries(value)) {
+    if (IS_TEXT.has(name) && typeof content !== "string") return `${path}.${name} is no text`;
+    if (HAS_MEMBERS.has(name) && (typeof content !== "object" || content === null))
+      return `${path}.${name} has no members`;
     const isMeasured = HAS_UNIT.test(name) && content !== null;
     if (isMeasured && ![content].flat(3).every((each) => each === null || Number.isFinite(each)))
       return `${path}.${name} is no number`;
     if (!isMeasured) {
-      const wrong = numberProblem(content, `${path}.${name}`);
+      const wrong = contentProblem(content, `${path}.${name}`);
       if (wrong !== null) return wrong;
     }
   }

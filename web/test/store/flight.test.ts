@@ -454,3 +454,29 @@ describe("engagement", () => {
     expect(store.flight.moment.value.trail.leader.filter((point) => point.t > 1)).toEqual([]);
   });
 });
+
+describe("a flight that is no more", () => {
+  test("stands at what was flown: no time passes after it, and its data do not grow old", () => {
+    const { flight, end, receive, advance } = joined(10, 60);
+    advance(1400);
+    expect(flight.moment.value.t).toBeGreaterThan(30);
+    end(1500);
+    advance(9000);
+    expect(flight.moment.value).toMatchObject({ t: 10, dataAge: 0, ended: true });
+    // what was on its way to the picture when the connection closed
+    receive(tick(12, [sample(12)], { rate: 60 }), 9100);
+    advance(20_000);
+    expect(flight.clock.value.ended).toBe(true);
+    expect(flight.moment.value).toMatchObject({ t: 12, dataAge: 0, ended: true });
+  });
+
+  test("is looked at again from where the viewer was", () => {
+    const { flight, end, seek, receive, follow } = joined(10, 60);
+    receive(tick(20, [sample(20)], { rate: 60 }), 1100);
+    seek(15, 0, 1200);
+    end(1300);
+    expect(flight.moment.value.t).toBe(15);
+    follow(9000);
+    expect(flight.moment.value).toMatchObject({ t: 20, dataAge: 0 });
+  });
+});

@@ -51,6 +51,21 @@ describe("a recording", () => {
       [...whole, line({ ...sample(1), aircraft: [{ ident: "A" }] })],
       "line 6: one of aircraft has no x_m",
     ],
+    [
+      "says no words",
+      [...whole, line({ ...modeChanged(1), message: 7 })],
+      "line 6: mode_changed.message is no text",
+    ],
+    [
+      "has no slot",
+      [...whole, line({ ...sample(1), guidance: [{ ...sample(1).guidance[0], slot: null }] })],
+      "line 6: sample.guidance.slot has no members",
+    ],
+    [
+      "lasts for ever",
+      [...whole, line(sample(1e12))],
+      "line 6: its t_s is 1000000000000, and no flight is longer than 1000000 s",
+    ],
     ["begins in the middle", [HEADER, line(sample(0))], "a flight begins with flight_started"],
     ["holds nothing to show", whole.slice(0, 4), "holds no sample"],
   ])("that %s is refused with its line", (_, lines, said) => {
