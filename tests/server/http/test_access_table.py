@@ -42,6 +42,7 @@ TABLE = {
     ("POST", "/no/such/page"): "fly",
     ("POST", "/api/v1/plans"): "view",
     ("POST", "/api/v1/plans/batch"): "view",
+    ("POST", "/api/v1/plans/compare"): "view",
     ("GET", "/api/v1/areas"): "view",
     ("POST", "/api/v1/areas"): "view",
     ("POST", "/api/v1/simulations"): "view",
