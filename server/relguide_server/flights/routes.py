@@ -235,9 +235,11 @@ async def command_flight(
 @router.websocket("/flights/{flight_id}/stream")
 async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
     """Ticks of a flight; the sub-protocol says for which form of them the client was built."""
-    spoken = [name for name in websocket.scope["subprotocols"] if name in (PROTOCOL, STREAM)]
+    offered = websocket.scope["subprotocols"]
+    spoken = [name for name in offered if name in (PROTOCOL, STREAM)]
     if not spoken:
-        await websocket.accept()
+        # a browser hears the reason only where one of those that it offered is taken
+        await websocket.accept(next(iter(offered), None))
         page = f"{PROTOCOL} with its own page: load that again."
         await websocket.close(WRONG_PROTOCOL, f"This server speaks {STREAM}, and {page}")
         return

@@ -247,6 +247,7 @@ async def _ticks_of(address: str, flight_id: str, count: int) -> list[dict]:
 
 async def _answer_refusal(address: str, flight_id: str, protocol: str) -> tuple[int | None, str]:
     async with stream_of(address, flight_id, protocol) as socket:
+        assert socket.subprotocol == protocol  # without one, a browser says 1006 and no reason
         with pytest.raises(ConnectionClosed):
             await socket.recv()
         return socket.close_code, socket.close_reason or ""
