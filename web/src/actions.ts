@@ -106,6 +106,7 @@ export function createActions(
     engagement = address.has("engaged") ? "engaged" : "off";
     const joined = address.get("flight") || null; // an empty name is none
     const turn = ++opened;
+    session.feedback.value = { kind: "none" }; // what was said was of the address before
     void loadScenarios();
     if (address.has("plan")) {
       (await import("./map/room")).layOut(session, address);

@@ -163,9 +163,10 @@ test("an address with an empty flight begins one", async () => {
   ]);
 });
 
-test("an answer to an earlier address comes too late", async () => {
+test("an answer to an earlier address comes too late, and what was said of that is gone", async () => {
   const { session, actions } = flying(problem(404, "There is no flight 'one'."));
   session.status.value = null;
+  session.feedback.value = { kind: "done", text: "Both are shown." };
   const first = actions.open(new URLSearchParams("flight=one"));
   void actions.open(new URLSearchParams("flight=two"));
   await first;
