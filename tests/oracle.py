@@ -33,6 +33,8 @@ def pieces_of_intent(situation: Situation) -> list[Piece]:
                     change = 0.0
                 if rate < 0.0:
                     change = (2.0 * pi - change) % (2.0 * pi)
+                if 2.0 * pi - change < 1e-6:  # the little that is missing, the other way round
+                    change, rate = 2.0 * pi - change, -rate
                 pieces.append((change / abs(rate), rate))
                 heading = piece.heading
     return pieces
