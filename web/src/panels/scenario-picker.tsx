@@ -3,7 +3,8 @@
 import type { Actions, Session } from "../session";
 
 export function ScenarioPicker(props: { session: Session; actions: Actions }) {
-  const { scenarios, status } = props.session;
+  const { scenarios, status, recording } = props.session;
+  const title = recording.value?.title ?? status.value?.title ?? "Scenario";
   const flown = status.value?.scenario ?? "";
   return (
     <div class="scenario">
@@ -11,7 +12,7 @@ export function ScenarioPicker(props: { session: Session; actions: Actions }) {
         <span class="visually-hidden">Scenario</span>
         <select value={flown} onChange={(event) => props.actions.start(event.currentTarget.value)}>
           {scenarios.value.every((scenario) => scenario.name !== flown) && (
-            <option value={flown}>{status.value?.title ?? "Scenario"}</option>
+            <option value={flown}>{title}</option>
           )}
           {scenarios.value.map((scenario) => (
             <option key={scenario.name} value={scenario.name} disabled={!scenario.available}>
