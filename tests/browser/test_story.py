@@ -39,7 +39,7 @@ def test_a_crew_lays_out_flies_joins_loses_its_leader_and_disconnects(
     expect(page.locator(".nd-armed")).to_be_attached()
     page.get_by_role("button", name="Engage").click()
     expect(lateral).to_have_text("RG CNV")
-    expect(page.get_by_test_id("announcer")).to_contain_text("Converge")
+    expect(page.get_by_test_id("announcer")).to_contain_text("Relative guidance engaged")
     wrong = Axe().run(page, options={"iframes": False}).response["violations"]
     assert [each["id"] for each in wrong] == []
     page.get_by_role("button", name="×60", exact=True).click()

@@ -50,7 +50,6 @@ export function Header(props: { session: Session; children?: ComponentChildren }
         type="button"
         class="quiet"
         aria-expanded={helpOpen.value}
-        {...(helpOpen.value && { "aria-controls": "help" })}
         onClick={() => {
           helpOpen.value = !helpOpen.value;
         }}
