@@ -34,7 +34,8 @@ def _opened(page: Page, watched: Watch, sky: Service) -> None:
 def test_the_plan_follows_the_finger(page: Page, watched: Watch, handle: str) -> None:
     page.evaluate(LAG)
     before = page.locator(".plan-map .nd-proposed").inner_html()
-    drag(page, handle, by=(0.7, 0.9))
+    # the slot goes outward: inward, D ends at MIN after a few steps
+    drag(page, handle, by=(-0.7, -0.9) if handle == "slot" else (0.7, 0.9))
     expect(page.locator(".plan-map .nd-proposed")).to_be_attached()
     lags = page.evaluate("lags.plans")
     assert page.locator(".plan-map .nd-proposed").inner_html() != before
