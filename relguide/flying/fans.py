@@ -1,4 +1,4 @@
-"""When a fan of joins is opened and closed: only where somebody watches, and not each second."""
+"""When a fan of joins is opened and closed: only for viewers, and not each second."""
 
 from collections.abc import Callable, Iterator
 
@@ -19,7 +19,7 @@ Wants = Callable[[Second], bool]
 
 
 def no_fans(t: Second) -> bool:
-    """No fan is wanted: nobody watches."""
+    """No fan is wanted: the flight has no viewer."""
     del t
     return False
 

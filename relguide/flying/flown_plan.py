@@ -40,7 +40,7 @@ def flown_card(plan: Plan, planner: Planner, *, until: float = inf) -> FlownCard
 
     Args:
         plan: the ideal one, which it is compared with.
-        planner: plans the flight; whoever made the plan.
+        planner: plans the flight, as it made the plan.
         until: when planning ends, of `end_of` [s].
     """
 

@@ -19,7 +19,7 @@ PICTURE = "document.querySelector('.nd-display').innerHTML"
 
 
 def begun(service: Service, rate: float = 60.0) -> str:
-    """A flight of Fig. 6a, engaged, that nobody watches yet."""
+    """A flight of Fig. 6a, engaged, that has no viewer yet."""
     body = json.dumps({"scenario": "fig_6a", "rate": rate, "engagement": "engaged"}).encode()
     headers = {"Content-Type": "application/json"}
     with urlopen(Request(f"{service.url}/api/v1/flights", body, headers)) as answer:

@@ -75,16 +75,8 @@ export function checkSituation(situation: SituationBody): Promise<Answer<PlanAns
 }
 
 /** A scenario flown to its end at once, as a recording. */
-export async function flyScenario(name: string): Promise<Answer<Blob>> {
-  const path = `${ROOT}/scenarios/${encodeURIComponent(name)}/flight`;
-  try {
-    const response = await fetch(path, { signal: AbortSignal.timeout(FLOWN_PATIENCE) });
-    if (response.ok) return { kind: "done", value: await response.blob() };
-    const sentence = sentenceOf(parse(await response.text()), response.status);
-    return { kind: "refused", status: response.status, sentence };
-  } catch {
-    return { kind: "refused", status: 0, sentence: "The server does not answer." };
-  }
+export function flyScenario(name: string): Promise<Answer<Blob>> {
+  return download(`${ROOT}/scenarios/${encodeURIComponent(name)}/flight`, FLOWN_PATIENCE);
 }
 
 /** What each planner would fly. */
@@ -132,21 +124,14 @@ export const EXPORT_FORMS = ["jsonl", "csv", "parquet", "geojson", "czml"] as co
 export type ExportForm = (typeof EXPORT_FORMS)[number];
 
 /** A flight on record as a file. `place`: where on the earth its x = y = 0 is, for a flight that has none. */
-export async function readRecord(
+export function readRecord(
   id: string,
   form: ExportForm = "jsonl",
   place: { readonly lat: number; readonly lon: number } | null = null,
 ): Promise<Answer<Blob>> {
   const where = place === null ? "" : `&lat_deg=${place.lat}&lon_deg=${place.lon}`;
   const path = `${ROOT}/records/flights/${encodeURIComponent(id)}/export?format=${form}${where}`;
-  try {
-    const response = await fetch(path, { signal: AbortSignal.timeout(RECORD_PATIENCE) });
-    if (response.ok) return { kind: "done", value: await response.blob() };
-    const sentence = sentenceOf(parse(await response.text()), response.status);
-    return { kind: "refused", status: response.status, sentence };
-  } catch {
-    return { kind: "refused", status: 0, sentence: "The server does not answer." };
-  }
+  return download(path, RECORD_PATIENCE);
 }
 
 /** Null if the server does not say. */
@@ -156,6 +141,18 @@ export async function readReadiness(): Promise<Readiness | null> {
     return (await response.json()) as Readiness;
   } catch {
     return null;
+  }
+}
+
+/** A file of the service; `patience` in ms. */
+async function download(path: string, patience: number): Promise<Answer<Blob>> {
+  try {
+    const response = await fetch(path, { signal: AbortSignal.timeout(patience) });
+    if (response.ok) return { kind: "done", value: await response.blob() };
+    const sentence = sentenceOf(parse(await response.text()), response.status);
+    return { kind: "refused", status: response.status, sentence };
+  } catch {
+    return { kind: "refused", status: 0, sentence: "The server does not answer." };
   }
 }
 

@@ -2,6 +2,7 @@
 
 import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
+import { useEffect, useRef } from "preact/hooks";
 import type { Alarm, Numbers } from "./store/numbers";
 
 /** A titled panel. `name` is its place in the grid and its class. */
@@ -121,6 +122,19 @@ export function Icon(props: { name: keyof typeof ICONS }) {
       <path d={ICONS[props.name]} fill="currentColor" fill-rule="evenodd" />
     </svg>
   );
+}
+
+/** A dialog that takes the focus when it is drawn, and gives it back when it is gone. */
+export function useFocus(): { readonly current: HTMLDivElement | null } {
+  const dialog = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const before = document.activeElement;
+    dialog.current?.focus();
+    return () => {
+      if (before instanceof HTMLElement) before.focus();
+    };
+  }, []);
+  return dialog;
 }
 
 /** What a button does that only sets something. */

@@ -375,7 +375,7 @@ export interface EngagementChanged {
 /**
  * Where a pursuer would join after turns that its leader may begin and has not announced.
  *
- * Said where somebody watches, while the leader's intent is not known and a path is proposed or
+ * Said to viewers, while the leader's intent is not known and a path is proposed or
  * flown. What is saved is how much sooner it joins if it knows of a turn a minute before it begins
  * than if it learns of it as it begins; both are forecast by flying the closed loop ahead.
  */

@@ -53,7 +53,7 @@ COLUMNS = {
     **dict.fromkeys(("flight_id", "started_at", "relguide_version"), "string"),
 }
 """Columns of the table of samples, and what they hold: a row for each aircraft and sample. Those of
-guidance are empty for an aircraft that joins nobody; those of `Origin` are the same in each row,
+guidance are empty for an aircraft that has no leader; those of `Origin` are the same in each row,
 since few readers of CSV stand a line of comment."""
 
 

@@ -1,4 +1,4 @@
-"""Fans of joins: what is said is what would be flown, where somebody watches and not else."""
+"""Fans of joins: what is said is what would be flown, and it is said to viewers only."""
 
 from itertools import pairwise
 

@@ -1,26 +1,19 @@
 /** The dialog of what can be taken away of the flight that is shown. */
 
 import { useSignal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect } from "preact/hooks";
 import { readRecorded } from "../api";
-import { set } from "../parts";
+import { set, useFocus } from "../parts";
 import type { Session } from "../session";
 import { Export } from "./export";
 
 export function ExportDialog({ session }: { session: Session }) {
   const { exportOpen, flight, recording, status, shown, ndMode, ndAuto, ndRange } = session;
-  const dialog = useRef<HTMLDivElement>(null);
+  const dialog = useFocus();
   const startedAt = useSignal<string | null>(null);
   const id = flight.id.value ?? "";
   const isRecorded =
     recording.value === null ? status.value?.recorded === true : recording.value.from === "record";
-  useEffect(() => {
-    const before = document.activeElement;
-    dialog.current?.focus();
-    return () => {
-      if (before instanceof HTMLElement) before.focus();
-    };
-  }, []);
   useEffect(() => {
     startedAt.value = null;
     if (id === "" || !isRecorded) return;

@@ -1,8 +1,7 @@
 /** The keys, and how to read the picture. */
 
 import type { Signal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
-import { set } from "../parts";
+import { set, useFocus } from "../parts";
 import type { Session } from "../session";
 import { ELEMENTS } from "../words";
 
@@ -25,21 +24,14 @@ const KEYS: readonly (readonly [string, string])[] = [
   ["Esc", "close, restore"],
 ];
 
-export function Help(props: { session: Session }) {
+export function Help({ session }: { session: Session }) {
+  return session.helpOpen.value ? <HelpText session={session} /> : null;
+}
+
+function HelpText(props: { session: Session }) {
   const { helpOpen, letterKeys, distinctColours, captions, scenarios } = props.session;
   const missing = scenarios.value.filter(({ available }) => !available);
-  const dialog = useRef<HTMLDivElement>(null);
-  const isOpen = helpOpen.value;
-  // The focus goes into the dialog, and back to where it was.
-  useEffect(() => {
-    if (!isOpen) return;
-    const before = document.activeElement;
-    dialog.current?.focus();
-    return () => {
-      if (before instanceof HTMLElement) before.focus();
-    };
-  }, [isOpen]);
-  if (!isOpen) return null;
+  const dialog = useFocus();
   return (
     <div
       id="help"

@@ -1,9 +1,9 @@
 /** Flights that can be looked at again: those on record of the service, and files of one's own. */
 
 import { useSignal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect } from "preact/hooks";
 import { listRecords, type RecordedFlight } from "../api";
-import { set } from "../parts";
+import { set, useFocus } from "../parts";
 import type { Actions, Session } from "../session";
 import { formatClock, formatMiles } from "../units";
 
@@ -21,20 +21,15 @@ export function Records({ session, actions }: Props) {
 
 function RecordList({ session, actions }: Props) {
   const { recordsOpen } = session;
-  const dialog = useRef<HTMLDivElement>(null);
+  const dialog = useFocus();
   const flights = useSignal<readonly RecordedFlight[] | null>(null);
   const refusal = useSignal("");
   const search = useSignal("");
   useEffect(() => {
-    const before = document.activeElement;
-    dialog.current?.focus();
     void listRecords(SHOWN).then((answer) => {
       if (answer.kind === "done") flights.value = answer.value.flights;
       else refusal.value = answer.sentence;
     });
-    return () => {
-      if (before instanceof HTMLElement) before.focus();
-    };
   }, [flights, refusal]);
   const close = set(recordsOpen, false);
   const wanted = search.value.trim().toLowerCase();

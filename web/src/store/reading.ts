@@ -1,7 +1,7 @@
 /** The texts of the numbers beside the picture, from plan and sample: plain functions, no DOM. */
 
 import { formatClock, formatHeading, formatKnots, formatMiles, NM } from "../units";
-import type { Alternative, Mode, OptimalityCard, PlanCard, ReferenceCard, Unable } from "../wire";
+import type { Alternative, OptimalityCard, PlanCard, ReferenceCard, Unable } from "../wire";
 import type { Guidance } from "./states";
 
 export function countTurns(plan: PlanCard): number {
@@ -18,14 +18,6 @@ export function wordTitle(word: string): string {
   };
   return [...word].map((letter) => letters[letter] ?? letter).join(", ");
 }
-
-export const MODE_NAMES: Record<Mode, string> = {
-  heading: "Heading hold",
-  converge: "Converge",
-  capture: "Capture",
-  follow: "Follow",
-  escape: "Escape",
-};
 
 export const STATE_NAMES: Record<Guidance, string> = {
   off: "Off",
