@@ -34,9 +34,9 @@ from relguide import (
 )
 from relguide.learn.planners import PLANNERS, make_planner
 from relguide.planning.acceptance import with_deadline
+from relguide.planning.intent import IntentPiece
 from relguide.planning.limits import BANK, DISTANCE, MAX_PIECES, TAS
 from relguide.planning.progress import show_progress
-from relguide.planning.situation import IntentPiece
 
 LATE = 0.005
 """An answer this long after the deadline is late [s]."""

@@ -19,7 +19,7 @@ from relguide import (
     certify,
     wind_from,
 )
-from relguide.planning.situation import IntentPiece
+from relguide.planning.intent import IntentPiece
 
 
 def anywhere(rng: np.random.Generator) -> Situation:

@@ -28,8 +28,9 @@ from relguide.flying.airframe import airframe
 from relguide.flying.documents import Document, FlightEnded, Unable
 from relguide.flying.envelope import flight_level, level_for
 from relguide.flying.flight import DEFAULT_TYPE, Scenario, fly
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.progress import show_progress
-from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.planning.situation import Situation
 from relguide.units import DEG, NM, Metre, MetrePerSecond, Second
 
 ON_LINE: Metre = 0.25 * NM

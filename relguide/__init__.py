@@ -74,6 +74,9 @@ if typing.TYPE_CHECKING:
     from relguide.pictures.flight import Flight as Flight
     from relguide.pictures.picture import Picture as Picture
     from relguide.pictures.picture import picture as picture
+    from relguide.planning.aircraft import Leader as Leader
+    from relguide.planning.aircraft import Pursuer as Pursuer
+    from relguide.planning.aircraft import Traffic as Traffic
     from relguide.planning.alternatives import Alternative as Alternative
     from relguide.planning.alternatives import alternatives as alternatives
     from relguide.planning.arrival import Arrival as Arrival
@@ -82,8 +85,14 @@ if typing.TYPE_CHECKING:
     from relguide.planning.batch import Times as Times
     from relguide.planning.batch import plan_arrays as plan_arrays
     from relguide.planning.candidate import Candidate as Candidate
+    from relguide.planning.cells import Cell as Cell
+    from relguide.planning.cells import Disc as Disc
+    from relguide.planning.cells import Polygon as Polygon
     from relguide.planning.certificate import Certificate as Certificate
     from relguide.planning.certificate import certify as certify
+    from relguide.planning.intent import ChangeLevel as ChangeLevel
+    from relguide.planning.intent import FlyStraight as FlyStraight
+    from relguide.planning.intent import TurnTo as TurnTo
     from relguide.planning.optimality import OptimalityReport as OptimalityReport
     from relguide.planning.optimality import check as check
     from relguide.planning.plan import NoPlan as NoPlan
@@ -95,14 +104,7 @@ if typing.TYPE_CHECKING:
     from relguide.planning.progress import progress_bar as progress_bar
     from relguide.planning.prove import prove as prove
     from relguide.planning.sampling import Samples as Samples
-    from relguide.planning.situation import CALM as CALM
-    from relguide.planning.situation import FlyStraight as FlyStraight
-    from relguide.planning.situation import Leader as Leader
-    from relguide.planning.situation import Pursuer as Pursuer
     from relguide.planning.situation import Situation as Situation
-    from relguide.planning.situation import TurnTo as TurnTo
-    from relguide.planning.situation import Wind as Wind
-    from relguide.planning.situation import wind_from as wind_from
     from relguide.planning.trajectory import LEFT as LEFT
     from relguide.planning.trajectory import RIGHT as RIGHT
     from relguide.planning.trajectory import Arc as Arc
@@ -110,6 +112,9 @@ if typing.TYPE_CHECKING:
     from relguide.planning.trajectory import Pose as Pose
     from relguide.planning.trajectory import Straight as Straight
     from relguide.planning.trajectory import Trajectory as Trajectory
+    from relguide.planning.wind import CALM as CALM
+    from relguide.planning.wind import Wind as Wind
+    from relguide.planning.wind import wind_from as wind_from
     from relguide.planning.words import candidates as candidates
 
 __version__ = "0.2.0"
@@ -176,6 +181,11 @@ _HOMES = {
     "TimeRow": "relguide.planning.batch",
     "Times": "relguide.planning.batch",
     "plan_arrays": "relguide.planning.batch",
+    "ChangeLevel": "relguide.planning.intent",
+    "Traffic": "relguide.planning.aircraft",
+    "Cell": "relguide.planning.cells",
+    "Disc": "relguide.planning.cells",
+    "Polygon": "relguide.planning.cells",
     "Certificate": "relguide.planning.certificate",
     "certify": "relguide.planning.certificate",
     "OptimalityReport": "relguide.planning.optimality",
@@ -189,14 +199,14 @@ _HOMES = {
     "progress_bar": "relguide.planning.progress",
     "prove": "relguide.planning.prove",
     "Samples": "relguide.planning.sampling",
-    "CALM": "relguide.planning.situation",
-    "FlyStraight": "relguide.planning.situation",
-    "Leader": "relguide.planning.situation",
-    "Pursuer": "relguide.planning.situation",
+    "CALM": "relguide.planning.wind",
+    "FlyStraight": "relguide.planning.intent",
+    "Leader": "relguide.planning.aircraft",
+    "Pursuer": "relguide.planning.aircraft",
     "Situation": "relguide.planning.situation",
-    "TurnTo": "relguide.planning.situation",
-    "Wind": "relguide.planning.situation",
-    "wind_from": "relguide.planning.situation",
+    "TurnTo": "relguide.planning.intent",
+    "Wind": "relguide.planning.wind",
+    "wind_from": "relguide.planning.wind",
     "Arc": "relguide.planning.trajectory",
     "BoundaryArc": "relguide.planning.trajectory",
     "LEFT": "relguide.planning.trajectory",
@@ -222,10 +232,13 @@ __all__ = [
     "Arrival",
     "BoundaryArc",
     "Candidate",
+    "Cell",
     "Certificate",
+    "ChangeLevel",
     "Command",
     "Declared",
     "DeclaredLeader",
+    "Disc",
     "Document",
     "EngagementChanged",
     "FanChanged",
@@ -256,6 +269,7 @@ __all__ = [
     "PlanRefused",
     "PlanUnavailable",
     "Planner",
+    "Polygon",
     "Pose",
     "PromiseChanged",
     "Pursuer",
@@ -274,6 +288,7 @@ __all__ = [
     "Straight",
     "TimeRow",
     "Times",
+    "Traffic",
     "Trajectory",
     "TurnTo",
     "Unable",

@@ -11,9 +11,12 @@ from relguide.campaign.instant import instant as instant
 from relguide.flying.aircraft_documents import LinkResult
 from relguide.flying.documents import Document, FlightEnded, Sample
 from relguide.flying.flight import Command, Scenario, fly
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.plan import Planner, plan
-from relguide.planning.situation import FlyStraight, Leader, Pursuer, Situation, TurnTo, wind_from
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
+from relguide.planning.wind import wind_from
 from relguide.units import DEG, NM
 
 T = TypeVar("T")

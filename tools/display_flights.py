@@ -11,19 +11,12 @@ import orjson
 
 from relguide.contract.wire import to_wire
 from relguide.flying.documents import Document
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.plan import Plan, plan
-from relguide.planning.situation import (
-    CALM,
-    FlyStraight,
-    IntentPiece,
-    Leader,
-    Pursuer,
-    Situation,
-    TurnTo,
-    Wind,
-    wind_from,
-)
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
+from relguide.planning.wind import CALM, Wind, wind_from
 from tests.openings import opening_of
 
 FOLDER = Path(__file__).parents[1] / "web" / "test" / "nd" / "flights"

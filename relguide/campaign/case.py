@@ -8,7 +8,7 @@ from relguide.flying.guidances import Guidance
 from relguide.flying.orders import Command
 from relguide.flying.surveillance import EXACT
 from relguide.flying.world import World
-from relguide.planning.situation import CALM, Wind
+from relguide.planning.wind import CALM, Wind
 from relguide.units import Second
 
 

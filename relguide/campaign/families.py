@@ -21,16 +21,12 @@ from relguide.flying.air import STANDARD_AIR
 from relguide.flying.airframe import airframe
 from relguide.flying.flight import LeaderHeading, Scenario
 from relguide.kernels.base.angles import wrap
+from relguide.planning.aircraft import Leader
+from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.plan import Plan, plan
-from relguide.planning.situation import (
-    CALM,
-    FlyStraight,
-    Leader,
-    Situation,
-    TurnTo,
-    wind_from,
-)
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT, Arc
+from relguide.planning.wind import CALM, wind_from
 from relguide.units import DEG, NM, Metre, Second
 
 ALTITUDE: Metre = 7_500.0

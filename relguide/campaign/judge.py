@@ -38,7 +38,8 @@ from relguide.flying.orders import Command
 from relguide.flying.simulation import simulate
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.plan import plan
-from relguide.planning.situation import Situation, Wind
+from relguide.planning.situation import Situation
+from relguide.planning.wind import Wind
 from relguide.units import DEG, Metre, Second
 
 

@@ -15,7 +15,8 @@ from relguide.flying.air import GUSTS, ISA_DEVIATION
 from relguide.flying.surveillance import LATENCY, LOSS_SHARE
 from relguide.planning.inputs import Range
 from relguide.planning.limits import BANK, DISTANCE, SPACING, TAS, WIND
-from relguide.planning.situation import Situation, Wind, wind_from
+from relguide.planning.situation import Situation
+from relguide.planning.wind import Wind, wind_from
 from relguide.units import DEG
 
 Setter = Callable[[Case, float, Draw], Case]

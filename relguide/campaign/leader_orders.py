@@ -6,7 +6,7 @@ from relguide.campaign.starts import Draw
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.flying.orders import Command, IntentKnown, LeaderHeading, LeaderSpeed
 from relguide.kernels.base.angles import wrap
-from relguide.planning.situation import Leader
+from relguide.planning.aircraft import Leader
 from relguide.units import DEG, Second
 
 SLOWEST = 60.0

@@ -15,7 +15,7 @@ from relguide.flying.plan_documents import (
     StraightSegment,
     TurnSegment,
 )
-from relguide.planning.situation import Wind
+from relguide.planning.wind import Wind
 from relguide.units import DEG, Metre, Radian, Second
 
 Floats = NDArray[np.float64]

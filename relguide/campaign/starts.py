@@ -4,16 +4,11 @@ from math import cos, pi, sin, sqrt
 
 import numpy as np
 
-from relguide.planning.situation import (
-    FlyStraight,
-    IntentPiece,
-    Leader,
-    Pursuer,
-    Situation,
-    TurnTo,
-    wind_from,
-)
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
+from relguide.planning.wind import wind_from
 from relguide.units import DEG, NM, Metre, MetrePerSecond
 
 Draw = np.random.Generator

@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from math import atan2, degrees
 from typing import Any
 
-from relguide.planning.situation import FlyStraight, Situation, TurnTo
+from relguide.planning.intent import ChangeLevel, FlyStraight, IntentPiece, TurnTo
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT
 from relguide.planning.wind import CALM, Wind
 
@@ -38,7 +39,7 @@ def body_of(asked: Asked) -> Mapping[str, Any]:
     }
 
 
-def _piece(piece: FlyStraight | TurnTo) -> dict[str, Any]:
+def _piece(piece: IntentPiece) -> dict[str, Any]:
     match piece:
         case FlyStraight(duration=duration):
             return {"straight_s": duration}
@@ -48,6 +49,8 @@ def _piece(piece: FlyStraight | TurnTo) -> dict[str, Any]:
                 "direction": "left" if turn == LEFT else "right",
                 "bank_deg": degrees(bank),
             }
+        case ChangeLevel(to_altitude=altitude, rate=rate, hold=hold):
+            return {"level_change": {"to_altitude_m": altitude, "rate_mps": rate, "hold": hold}}
 
 
 def _wind(wind: Wind) -> dict[str, Any]:

@@ -25,19 +25,12 @@ from relguide.flying.plan_documents import (
     PlanCard,
 )
 from relguide.planning import limits
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.frames import LocalPlane
-from relguide.planning.situation import (
-    CALM,
-    FlyStraight,
-    IntentPiece,
-    Leader,
-    Pursuer,
-    Situation,
-    TurnTo,
-    Wind,
-    wind_from,
-)
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
+from relguide.planning.wind import CALM, Wind, wind_from
 
 if TYPE_CHECKING:
     from relguide.flying.verdicts import PlannerVerdict

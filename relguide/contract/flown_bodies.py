@@ -31,7 +31,7 @@ from relguide.flying.surveillance import (
 )
 from relguide.flying.wind_profile import LEVELS, WindLevel, WindProfile
 from relguide.planning.limits import WIND
-from relguide.planning.situation import CALM, Wind
+from relguide.planning.wind import CALM, Wind
 
 if TYPE_CHECKING:
     from relguide.flying.flight import Scenario

@@ -19,7 +19,9 @@ from relguide.kernels.flight.flight_records import Body, Drift, Limits
 from relguide.kernels.flight.laws import ground_track
 from relguide.kernels.flight.marks import straight_for
 from relguide.kernels.flight.program import roll_lead
-from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo, Wind
+from relguide.planning.aircraft import Leader
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
+from relguide.planning.wind import Wind
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 SPARE: Metre = 20_000.0

@@ -34,7 +34,6 @@ from relguide.kernels.base.turn import bank_for_turn_radius
 from relguide.planning.arrival import Arrival
 from relguide.planning.certificate import Certificate
 from relguide.planning.plan import NoPlan, Plan
-from relguide.planning.situation import Wind
 from relguide.planning.trajectory import (
     LEFT,
     Arc,
@@ -44,6 +43,7 @@ from relguide.planning.trajectory import (
     Trajectory,
     heading_change,
 )
+from relguide.planning.wind import Wind
 from relguide.units import Second
 
 if TYPE_CHECKING:

@@ -5,17 +5,11 @@ from math import hypot, pi
 from random import Random
 
 from relguide.flying.airframe import Airframe
-from relguide.planning.situation import (
-    CALM,
-    FlyStraight,
-    IntentPiece,
-    Leader,
-    Pursuer,
-    Situation,
-    TurnTo,
-    wind_from,
-)
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
+from relguide.planning.wind import CALM, wind_from
 from relguide.units import DEG, NM
 
 DISPERSED = {

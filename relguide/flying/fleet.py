@@ -38,8 +38,9 @@ from relguide.kernels.flight.second import (
     fly_second,
     least_between,
 )
+from relguide.planning.intent import IntentPiece
 from relguide.planning.limits import POSITION, TAS
-from relguide.planning.situation import IntentPiece, Wind
+from relguide.planning.wind import Wind
 from relguide.units import DEG, NM, Metre, MetrePerSecond, Radian, Second
 
 LEADERS_ACCELERATION = 0.1

@@ -29,7 +29,7 @@ from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
 from relguide.flying.wind_profile import WindProfile
-from relguide.flying.world import ALTITUDES, Aircraft, Declared, Guided, Link, Recorded, World
+from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
 from relguide.planning.inputs import (
     expect,
     expect_function,
@@ -39,9 +39,11 @@ from relguide.planning.inputs import (
     text,
     truth,
 )
-from relguide.planning.limits import SPACING
+from relguide.planning.intent import IntentPiece, TurnTo
+from relguide.planning.limits import ALTITUDE, SPACING
 from relguide.planning.plan import Plan, Planner, plan
-from relguide.planning.situation import CALM, IntentPiece, Situation, TurnTo
+from relguide.planning.situation import Situation
+from relguide.planning.wind import CALM
 from relguide.units import DEG, Kilogram, Metre, MetrePerSecond, Radian, Second
 
 TEXTS = ("name", "title", "description", "pursuer_ident", "leader_ident", "leader_type")
@@ -111,7 +113,7 @@ class Scenario:
             raise ValueError(
                 f"pursuer_ident and leader_ident must differ, not both be {self.leader_ident!r}."
             )
-        expect_within("altitude", self.altitude, *ALTITUDES)
+        expect_within("altitude", self.altitude, *ALTITUDE)
         expect_within("spacing", self.spacing, *SPACING)
         if self.believed_air is not None:
             expect("believed_air", self.believed_air, Air)

@@ -60,9 +60,10 @@ from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
+from relguide.planning.aircraft import Leader
 from relguide.planning.alternatives import alternatives
 from relguide.planning.plan import Plan
-from relguide.planning.situation import Leader, Wind
+from relguide.planning.wind import Wind
 from relguide.units import Metre, Second
 
 FINAL_LEG: Second = 1200.0

@@ -6,8 +6,10 @@ It keeps the speed V_P to the slot: what an aircraft loses that has to brake for
 
 from relguide.flying.world import Declared, Guided, Link, Recorded, World
 from relguide.kernels.base.angles import wrap
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import IntentPiece
 from relguide.planning.plan import Plan, plan
-from relguide.planning.situation import IntentPiece, Leader, Pursuer, Situation
+from relguide.planning.situation import Situation
 from relguide.units import Second
 
 

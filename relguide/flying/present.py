@@ -6,16 +6,11 @@ from relguide.flying.aircraft_documents import AircraftSample, LinkCard, find_by
 from relguide.flying.documents import FlightStarted, LeaderRoute, Sample
 from relguide.flying.plan_documents import StraightSegment, TurnSegment
 from relguide.kernels.base.angles import wrap
-from relguide.planning.situation import (
-    FlyStraight,
-    IntentPiece,
-    Leader,
-    Pursuer,
-    Situation,
-    TurnTo,
-    wind_from,
-)
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
+from relguide.planning.wind import wind_from
 from relguide.units import DEG, Radian, Second
 
 LATE: Second = 10.0

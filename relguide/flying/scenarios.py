@@ -29,9 +29,12 @@ from relguide.flying.envelope import level_for
 from relguide.flying.flight import DEFAULT_TYPE, Scenario
 from relguide.flying.recordings.samples import DEFAULT_LEADER, INSTALL, load_sample
 from relguide.flying.tracks import RecordedTrack
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.inputs import expect, number
-from relguide.planning.situation import CALM, FlyStraight, Leader, Pursuer, Situation, TurnTo
+from relguide.planning.intent import FlyStraight, TurnTo
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import RIGHT
+from relguide.planning.wind import CALM
 from relguide.units import DEG, NM, Metre, Second
 
 LEADER_TURNS_AT: Second = 820.0

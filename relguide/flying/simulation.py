@@ -48,7 +48,7 @@ from relguide.flying.pursuit import Pursuit, begin_pursuit, keep_margin
 from relguide.flying.world import World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
 from relguide.planning.plan import Planner, plan
-from relguide.planning.situation import Wind
+from relguide.planning.wind import Wind
 from relguide.units import Metre, Second
 
 Fan = Callable[[Pursuit, Belief], Iterator[Document]]

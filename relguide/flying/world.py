@@ -9,8 +9,11 @@ from relguide.flying.envelope import envelope_fault
 from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
-from relguide.planning.inputs import Range, expect, expect_within, text, truth
+from relguide.planning.aircraft import expect_distance
+from relguide.planning.inputs import expect, expect_within, text, truth
+from relguide.planning.intent import IntentPiece, expect_bank, expect_intent
 from relguide.planning.limits import (
+    ALTITUDE,
     CLEARANCE,
     HEADING,
     POSITION,
@@ -18,14 +21,11 @@ from relguide.planning.limits import (
     TAS,
     too_close_a_slot,
 )
-from relguide.planning.situation import IntentPiece, expect_bank, expect_distance, expect_intent
 from relguide.units import DEG, Kilogram, Metre, MetrePerSecond, Radian, Second
 
-ALTITUDES = Range(-500.0, 20_000.0, "m")
-"""Where aircraft fly: from below the Dead Sea's shore to where the standard air ends."""
 BANK_IN_RESERVE: Radian = 5.0 * DEG
 """An autopilot may bank by so much more than its plans turn with, where its type allows it."""
-RANGES = {"x": POSITION, "y": POSITION, "heading": HEADING, "tas": TAS, "altitude": ALTITUDES}
+RANGES = {"x": POSITION, "y": POSITION, "heading": HEADING, "tas": TAS, "altitude": ALTITUDE}
 """What is accepted of an aircraft's numbers, beside its bank."""
 
 

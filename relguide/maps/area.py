@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.base.angles import wrap
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.batch import Situations, Times, plan_arrays
-from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
 from relguide.units import Metre, MetrePerSecond, Radian, Second
 

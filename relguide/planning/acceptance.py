@@ -14,6 +14,7 @@ from types import FunctionType
 from typing import Literal, NamedTuple
 
 from relguide.kernels.base.angles import wrap_signed
+from relguide.planning.aircraft import Pursuer
 from relguide.planning.arrival import (
     MAX_EARLY,
     MAX_HEADING_ERROR,
@@ -25,7 +26,7 @@ from relguide.planning.deadline import end_of, left_until
 from relguide.planning.phrases import distance, duration, too_close
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
-from relguide.planning.situation import Pursuer, Situation
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 from relguide.units import DEG, Second
 

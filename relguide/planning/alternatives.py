@@ -62,6 +62,8 @@ class LosesSeparation:
 
     least_separation: Metre
     at_time: Second
+    ident: str = ""
+    """Of other traffic, or of a cell; empty for the leader."""
     kind: Literal["separation"] = "separation"
 
 

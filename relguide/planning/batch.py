@@ -22,9 +22,11 @@ from relguide.kernels.base.turn import turn_radii
 from relguide.kernels.contact import time_rows as kernel
 from relguide.kernels.words.extremals import WORDS
 from relguide.planning import limits
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.constrained_path import BEARINGS, HARDER
 from relguide.planning.inputs import expect, expect_function, expect_whole, truth
-from relguide.planning.situation import Leader, Pursuer, Situation, Wind
+from relguide.planning.situation import Situation
+from relguide.planning.wind import Wind
 from relguide.planning.words import HORIZON
 from relguide.units import DEG, Second
 

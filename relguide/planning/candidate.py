@@ -7,7 +7,8 @@ import numpy as np
 
 from relguide.kernels.contact.path_pieces import NO_TURN
 from relguide.kernels.words.extremals import SIGNS
-from relguide.planning.situation import Pursuer, Situation
+from relguide.planning.aircraft import Pursuer
+from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame
 from relguide.planning.trajectory import (
     LEFT,

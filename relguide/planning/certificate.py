@@ -1,21 +1,53 @@
 """certify(trajectory, situation): a proved lower bound on the separation, all turns included.
 
-It does not depend on where the trajectory comes from: it reads the segments alone.
+It does not depend on where the trajectory comes from: it reads the segments alone. Each other
+aircraft and each cell has a bound of its own, until `FOLLOWED` seconds after the pursuer joins:
+from then on it flies in the slot.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple, assert_never
+
+import numpy as np
 
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.separation.approach import least_on_paths
+from relguide.kernels.separation.approach import least_on_paths, least_on_paths_within
+from relguide.kernels.separation.cell import least_from_cell
 from relguide.kernels.separation.clearance import SLACK
+from relguide.planning.aircraft import Traffic
+from relguide.planning.cells import Cell, Disc, Polygon
 from relguide.planning.inputs import expect
-from relguide.planning.situation import Situation
+from relguide.planning.situation import Other, Situation
+from relguide.planning.slot import slot_frame
 from relguide.planning.tables import leader_path, path_of
 from relguide.planning.trajectory import Trajectory
+from relguide.planning.wind import Wind
 from relguide.units import Metre, Second
 
 TOLERANCE = 1e-7
 """How far below the least separation found the proof may stop [R]: 1 mm for an airliner."""
+AROUND_CELLS: Metre = 0.1
+"""The same of cells, whose edges nobody knows to a metre [m]."""
+FOLLOWED: Second = 120.0
+"""So long after joining the pursuer must keep clear of others, in the slot [s]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OtherSeparation:
+    """Least separation from one other aircraft, or from the edge of a cell, with its proof."""
+
+    ident: str
+    """Of the aircraft or the cell."""
+    least_separation: Metre
+    """The least found, reached at `at_time`; negative inside a cell [m]."""
+    at_time: Second
+    """When it is reached [s]."""
+    lower_bound: Metre
+    """No separation until `FOLLOWED` seconds after joining is below this [m]: proved."""
+    min_separation: Metre
+    """What is to be kept [m]; 0 for a cell."""
+    holds: bool
+    """Whether `lower_bound` keeps it, to 1e-6 R."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,7 +61,9 @@ class Certificate:
     lower_bound: Metre
     """No separation anywhere in [0, T] is below this [m]: proved, not sampled."""
     holds: bool
-    """Whether `lower_bound` keeps d_min, to 1e-6 R."""
+    """Whether `lower_bound` keeps d_min, to 1e-6 R, and each of the others is kept clear of."""
+    others: tuple[OtherSeparation, ...] = ()
+    """The same of other traffic and cells, least margin first."""
 
 
 def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
@@ -55,10 +89,96 @@ def judge(
         radius: R, which callers have at hand [m].
         leading: the situation's `leader_path`, or `path_of` what its leader flies.
     """
-    least, at, bound = least_on_paths(path_of(trajectory), leading, TOLERANCE * radius)
+    path = path_of(trajectory)
+    least, at, bound = least_on_paths(path, leading, TOLERANCE * radius)
+    others = _others(path, trajectory.duration, situation, radius) if situation.others else ()
     return Certificate(
         least_separation=least,
         at_time=at,
         lower_bound=bound,
-        holds=bound >= situation.min_separation - SLACK * radius,
+        holds=bound >= situation.min_separation - SLACK * radius
+        and all(other.holds for other in others),
+        others=others,
     )
+
+
+class _Least(NamedTuple):
+    """What a kernel finds of one path, and of one of the others."""
+
+    separation: Metre
+    at: Second
+    bound: Metre
+
+
+def _others(
+    path: FloatArray, joined: Second, situation: Situation, radius: Metre
+) -> tuple[OtherSeparation, ...]:
+    """All others in turn, least margin first."""
+    found = [
+        _other(path, _following(situation), joined, other, situation.wind, radius)
+        for other in situation.others
+    ]
+    return tuple(sorted(found, key=lambda other: other.lower_bound - other.min_separation))
+
+
+def _following(situation: Situation) -> FloatArray:
+    """How a pursuer that has joined flies: as the slot, from where that would be at t = 0."""
+    leader = situation.leader.trajectory
+    frame = slot_frame(situation, leader)
+    return np.array((frame.origin_x, frame.origin_y, frame.heading, leader.tas))
+
+
+def _other(
+    path: FloatArray,
+    following: FloatArray,
+    joined: Second,
+    other: Other,
+    wind: Wind,
+    radius: Metre,
+) -> OtherSeparation:
+    """One of the others, on the way to the slot and in it."""
+    limit = other.min_separation if isinstance(other, Traffic) else 0.0
+    legs = (path, 0.0, joined), (following, joined, joined + FOLLOWED)
+    least = [_least(*leg, other, wind, radius) for leg in legs]
+    nearest = min(least)
+    bound = min(found.bound for found in least)
+    return OtherSeparation(
+        ident=other.ident,
+        least_separation=nearest.separation,
+        at_time=nearest.at,
+        lower_bound=bound,
+        min_separation=limit,
+        holds=bound >= limit - SLACK * radius,
+    )
+
+
+def _least(
+    path: FloatArray, begin: Second, end: Second, other: Other, wind: Wind, radius: Metre
+) -> _Least:
+    match other:
+        case Traffic():
+            theirs = path_of(other.trajectory)
+            return _Least(*least_on_paths_within(path, theirs, begin, end, TOLERANCE * radius))
+        case Cell():
+            corners, cell = cell_shape(other, wind)
+            return _Least(*least_from_cell(path, corners, cell, begin, end, AROUND_CELLS))
+        case _:
+            assert_never(other)
+
+
+def cell_shape(cell: Cell, wind: Wind) -> tuple[FloatArray, FloatArray]:
+    """A cell as kernels take it.
+
+    Returns:
+        its corners at t = 0, shape (n, 2) [m]; and its radius [m], growth [m/s], and velocity east
+        and north in the air mass [m/s].
+    """
+    match cell.shape:
+        case Disc(x=x, y=y, radius=radius):
+            corners = [(x, y)]
+        case Polygon(corners=points):
+            corners, radius = list(points), 0.0
+        case _:
+            assert_never(cell.shape)
+    velocity = cell.east - wind.east, cell.north - wind.north
+    return np.array(corners), np.array((radius, cell.growth, *velocity))

@@ -10,12 +10,14 @@ from itertools import islice
 from math import inf, pi
 
 from relguide.kernels.base.clock import now, time_is_up
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.at_release import first_at_release
 from relguide.planning.certificate import certify
 from relguide.planning.constrained_path import constrained_path
 from relguide.planning.inputs import expect_within
+from relguide.planning.intent import TurnTo
 from relguide.planning.least_bad import least_bad, restore
-from relguide.planning.situation import Leader, Pursuer, Situation, TurnTo
+from relguide.planning.situation import Situation
 from relguide.planning.straight_ahead import first_candidate
 from relguide.planning.tables import leader_path
 from relguide.planning.trajectory import RIGHT

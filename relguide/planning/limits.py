@@ -22,6 +22,16 @@ DISTANCE = Range(0.0, 200_000.0, "m")
 """D and d_min."""
 MOST_MILES = 60
 """A distance up to this, given as a whole number of metres, was meant in nautical miles."""
+ALTITUDE = Range(-500.0, 20_000.0, "m")
+"""Where aircraft fly: from below the Dead Sea's shore to where the standard air ends."""
+VERTICAL_RATE = Range(0.5, 60.0, "m/s")
+"""Rates of climb and descent: 100 to 12,000 ft/min."""
+CELL_RADIUS = Range(1.0, 500_000.0, "m")
+"""Radii of weather cells."""
+CELL_SPEED = Range(-150.0, 150.0, "m/s")
+"""How fast a cell moves, to the east or to the north."""
+GROWTH = Range(0.0, 50.0, "m/s")
+"""How fast a cell's edge moves outward."""
 WIND = Range(0.0, 150.0, "m/s")
 """Wind speeds: the strongest jet streams on record are slower."""
 PIECE = Range(0.0, 86_400.0, "s")
@@ -30,6 +40,10 @@ SPACING = Range(0.0, 600.0, "s")
 """Times behind the leader to keep once joined; 0 keeps D."""
 MAX_PIECES = 20
 """Most pieces an intent may have."""
+MAX_OTHERS = 100
+"""Most other traffic and cells that a situation may have."""
+MAX_CORNERS = 64
+"""Most corners of a cell."""
 CLEARANCE = Range(0.0, inf, "m")
 """D − d_min."""
 HEADWAY = Range(1.0, inf, "m/s")

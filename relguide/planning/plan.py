@@ -28,10 +28,11 @@ from relguide.planning.least_bad import (
 )
 from relguide.planning.phrases import distance
 from relguide.planning.sampling import Samples
-from relguide.planning.situation import CALM, Situation
+from relguide.planning.situation import Situation
 from relguide.planning.straight_ahead import first_candidate
 from relguide.planning.tables import leader_path, path_of
 from relguide.planning.trajectory import Trajectory, pieces_text
+from relguide.planning.wind import CALM
 from relguide.planning.words import HORIZON, Candidates, candidates
 from relguide.units import KT, Metre, Millisecond, Second
 
@@ -50,6 +51,7 @@ class Reason(StrEnum):
     SEPARATION_UNAVOIDABLE = "separation_unavoidable"
     BEYOND_HORIZON = "beyond_horizon"
     DEADLINE = "deadline"
+    TRAFFIC = "traffic"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -159,6 +161,37 @@ class Plan:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Conflict:
+    """What the best path that was found comes too close to."""
+
+    ident: str
+    """Of other traffic, or of a cell."""
+    at_time: Second
+    """When it is nearest [s]."""
+    least_separation: Metre
+    """How near it comes; negative inside a cell [m]."""
+    min_separation: Metre
+    """What is to be kept [m]; 0 for a cell."""
+
+
+RemedyKind = Literal["slot_distance", "later", "level", "side"]
+"""Another D; the same asked later; another level; the other way round."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Remedy:
+    """A change with which there is a plan: it was tried."""
+
+    kind: RemedyKind
+    value: float
+    """D [m], how much later [s], or the level [m]; 0 for the other way round."""
+    time_to_converge: Second
+    """T of the plan there is then, from the time that it is asked [s]."""
+    message: str
+    """The same for people."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class NoPlan:
     """Why there is no plan, and what would help."""
 
@@ -167,6 +200,10 @@ class NoPlan:
     """A sentence for people."""
     lower_bound: Second = 0.0
     """No plan that keeps d_min is faster than this [s]; 0 where nothing is known."""
+    conflict: Conflict | None = None
+    """With `Reason.TRAFFIC`: what is in the way of the best path that was found."""
+    remedies: tuple[Remedy, ...] = ()
+    """With `Reason.TRAFFIC`: what would help."""
     status: Literal["no_plan"] = "no_plan"
 
 

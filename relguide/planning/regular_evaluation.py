@@ -163,6 +163,7 @@ def _separation(
     least, _, bound = least_separation(
         Motion(start.x, start.y, start.heading, tas, np.array(((turning, rate),))),
         Motion(theirs.x, theirs.y, theirs.heading, leader.tas, np.empty((0, 2))),
+        0.0,
         turning,
         TOLERANCE * radius,
     )

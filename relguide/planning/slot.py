@@ -17,8 +17,9 @@ from relguide.kernels.base import records
 from relguide.kernels.base import slot_frame as kernel
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.slot_frame import to_slot
-from relguide.planning.situation import Situation, Wind
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Arc, Pose, Trajectory
+from relguide.planning.wind import Wind
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

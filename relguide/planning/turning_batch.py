@@ -13,7 +13,7 @@ from relguide.kernels.base.angles import FULL_TURN_SLACK, TWO_PI
 from relguide.kernels.maps import turning_rows as kernel
 from relguide.planning import limits
 from relguide.planning.batch import Floats, Situations
-from relguide.planning.situation import ROUNDED
+from relguide.planning.intent import ROUNDED
 from relguide.planning.words import HORIZON
 from relguide.units import DEG
 

@@ -7,16 +7,11 @@ from math import pi, radians
 
 import numpy as np
 
-from relguide.planning.situation import (
-    FlyStraight,
-    IntentPiece,
-    Leader,
-    Pursuer,
-    Situation,
-    TurnTo,
-    Wind,
-)
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
+from relguide.planning.wind import Wind
 
 SAMPLES = 400
 """Documents of a flight after which its every kernel has been called."""

@@ -20,7 +20,7 @@ from relguide.kernels.flight.autopilot import aileron
 from relguide.kernels.flight.energy import least_tas, load_square
 from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits, limits_at, store
 from relguide.kernels.flight.second import RECORDED
-from relguide.planning.situation import Wind
+from relguide.planning.wind import Wind
 from relguide.units import FT, G0, Metre, MetrePerSecond, Second
 
 FRAMES = 120

@@ -6,7 +6,7 @@ import pytest
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import TURN_RATE, Control
-from relguide.planning.situation import CALM
+from relguide.planning.wind import CALM
 from relguide.units import DEG, FT, Metre
 from tests.aloft import LIMITS, MAX_BANK, STEP, fly, hold, level
 from tests.independent.a320 import A320

@@ -4,7 +4,7 @@ import pytest
 
 from relguide.kernels.flight.energy import load_square, most_acceleration
 from relguide.kernels.flight.flight_records import Body, Control, Limits
-from relguide.planning.situation import Wind
+from relguide.planning.wind import Wind
 from relguide.units import Second
 from tests.independent.a320 import A320, A320Fleet
 from tests.independent.outcome import FAMILIES, NUMBERS, both

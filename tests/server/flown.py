@@ -19,17 +19,12 @@ from relguide.flying.documents import (
     Sample,
 )
 from relguide.flying.plan_documents import PathPoint
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.plan import Plan, plan
-from relguide.planning.situation import (
-    FlyStraight,
-    Leader,
-    Pursuer,
-    Situation,
-    TurnTo,
-    Wind,
-    wind_from,
-)
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import RIGHT, Trajectory
+from relguide.planning.wind import Wind, wind_from
 from relguide.units import DEG, FT
 from tests.openings import opening_of
 

@@ -145,11 +145,10 @@ def separation_on_heading(
     roll = roll_lead(belief.limits, own.bank, side * bank) if abs(turn) > FAINT else 0.0
     pieces = np.array([(roll, turn_rate(own.tas, own.bank)), (abs(turn) / full, side * full)])
     ours = _motion(belief)._replace(pieces=pieces)
+    look_out = assignment.settings.look_out
     return float(
         min(
-            least_separation(ours, leader._replace(pieces=rows), assignment.settings.look_out, 1.0)[
-                0
-            ]
+            least_separation(ours, leader._replace(pieces=rows), 0.0, look_out, 1.0)[0]
             for leader in _leaders(belief, other_tas)
             for rows in _pieces(belief, leader, turns_on=turns_on)
         )

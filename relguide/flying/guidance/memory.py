@@ -21,8 +21,8 @@ from relguide.kernels.flight.flight_records import Control
 from relguide.kernels.flight.guide import HOLD, Progress
 from relguide.planning.acceptance import Fault
 from relguide.planning.plan import Reason
-from relguide.planning.situation import Wind
 from relguide.planning.trajectory import Trajectory
+from relguide.planning.wind import Wind
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 LONG_AGO: Second = -1e9

@@ -3,7 +3,8 @@
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.assignment import Assignment
 from relguide.kernels.base.angles import wrap
-from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.situation import Situation
 from relguide.units import Metre
 
 

@@ -11,8 +11,8 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import Body, Limits
 from relguide.kernels.flight.program import ROLLED_OUT, STRAIGHT, TURN, roll_lead
+from relguide.planning.intent import ROUNDED, FlyStraight, IntentPiece, TurnTo
 from relguide.planning.limits import MAX_PIECES
-from relguide.planning.situation import ROUNDED, FlyStraight, IntentPiece, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG, Radian, RadianPerSecond, Second
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from relguide.flying.tracks import RecordedTrack
 from relguide.kernels.base.roots import FloatArray
-from relguide.planning.situation import Wind
+from relguide.planning.wind import Wind
 from relguide.units import G0, Second
 
 

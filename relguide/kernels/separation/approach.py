@@ -120,14 +120,15 @@ def _advance(
 
 @njit(cache=True, nogil=True)
 def least_separation(
-    pursuer: Motion, leader: Motion, horizon: float, tolerance: float
+    pursuer: Motion, leader: Motion, begin: float, horizon: float, tolerance: float
 ) -> tuple[float, float, float]:
-    """Least separation of two aircraft on [0, horizon], with a proved lower bound on it.
+    """Least separation of two aircraft on [begin, horizon], with a proved lower bound on it.
 
     Args:
         pursuer: how one of them moves.
         leader: and the other.
-        horizon: until when [s].
+        begin: from when on [s], ≥ 0.
+        horizon: until when [s], ≥ begin.
         tolerance: how far below the least separation found the bound may stay [m], > 0.
 
     Returns:
@@ -135,7 +136,7 @@ def least_separation(
     """
     px, py, ppsi, pv, pursuer_pieces = pursuer
     lx, ly, lpsi, lv, leader_pieces = leader
-    best, best_at = norm(px - lx, py - ly), 0.0
+    best, best_at = norm(px - lx, py - ly) if begin <= 0.0 else inf, 0.0
     proved = best
     reach = abs(px) + abs(py) + abs(lx) + abs(ly) + (pv + lv) * horizon
     rounding = ROUNDING + _SHARE * reach
@@ -150,14 +151,15 @@ def least_separation(
     while t < horizon:
         p_rate = pursuer_pieces[i, 1] if i < len(pursuer_pieces) else 0.0
         l_rate = leader_pieces[j, 1] if j < len(leader_pieces) else 0.0
-        span = min(p_left, l_left, horizon - t)
+        counts = t >= begin
+        span = min(p_left, l_left, horizon - t if counts else begin - t)
         bend = pv * abs(p_rate) + lv * abs(l_rate)
         p_squared, l_squared = p_rate * p_rate, l_rate * l_rate
         jerk = pv * p_squared + lv * l_squared
         snap = pv * abs(p_rate) * p_squared + lv * abs(l_rate) * l_squared
         mids[0] = 0.5 * span
         halves[0] = 0.5 * span
-        n = 1
+        n = 1 if counts else 0
         while n > 0:
             n -= 1
             looked += 1
@@ -199,7 +201,8 @@ def least_separation(
         if l_rate != 0.0:
             lpsi += l_rate * span
             lsin, lcos = sine_and_cosine(lpsi)
-        t += span
+        # a sum would miss `begin` by rounding
+        t = t + span if counts or t + span < begin else begin
         p_left -= span
         l_left -= span
         while p_left <= 0.0:
@@ -226,4 +229,20 @@ def least_on_paths(
         tolerance: as in `least_separation` [m].
     """
     pursuer, leader = motion_along(path), motion_along(leader_path)
-    return least_separation(pursuer, leader, pursuer.pieces[:, 0].sum(), tolerance)
+    return least_separation(pursuer, leader, 0.0, pursuer.pieces[:, 0].sum(), tolerance)
+
+
+@njit(cache=True, nogil=True)
+def least_on_paths_within(
+    path: FloatArray, other_path: FloatArray, begin: float, end: float, tolerance: float
+) -> tuple[float, float, float]:
+    """`least_separation` of two paths from one time to another; past their ends both fly straight.
+
+    Args:
+        path: the pursuer's, as `motion_along` takes it.
+        other_path: the other aircraft's.
+        begin: from when on [s].
+        end: until when [s].
+        tolerance: as in `least_separation` [m].
+    """
+    return least_separation(motion_along(path), motion_along(other_path), begin, end, tolerance)

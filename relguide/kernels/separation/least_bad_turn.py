@@ -85,7 +85,7 @@ def widest_miss(
         angle = TWO_PI * ((k + 1) // 2) / _TURNS * (1.0 if k % 2 == 1 else -1.0)
         pieces[0, 0] = abs(angle) / rate
         pieces[0, 1] = rate if angle > 0.0 else -rate
-        least, at, _ = least_separation(with_pieces(pursuer, pieces), leader, horizon, _SAME)
+        least, at, _ = least_separation(with_pieces(pursuer, pieces), leader, 0.0, horizon, _SAME)
         if least > best + _SAME:
             best, best_angle, best_at = least, angle, at
     return best_angle, best, best_at
@@ -123,7 +123,7 @@ def escape_path(
             ours, kept = with_pieces(pursuer, pieces), inf
             for i in range(len(leaders_pieces)):
                 theirs = with_pieces(leader, leaders_pieces[i])
-                least, _, _ = least_separation(ours, theirs, horizon, _SAME)
+                least, _, _ = least_separation(ours, theirs, 0.0, horizon, _SAME)
                 kept = min(kept, least)
                 if kept <= best:
                     break

@@ -31,7 +31,8 @@ from relguide.learn.network_planner import propose
 from relguide.learn.words.branch_labels import times_of
 from relguide.learn.words.branch_network import BranchNetwork
 from relguide.learn.words.train_branches import NEAR
-from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON
 from relguide.units import MetrePerSecond, Second
 

@@ -18,15 +18,10 @@ from relguide.flying.flight import Scenario, fly
 from relguide.flying.guidance.settings import Settings
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.plan import NoPlan, Plan, Planner, plan
-from relguide.planning.situation import (
-    FlyStraight,
-    IntentPiece,
-    Leader,
-    Pursuer,
-    Situation,
-    TurnTo,
-)
+from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, Second

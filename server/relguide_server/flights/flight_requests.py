@@ -13,7 +13,8 @@ from relguide.contract.refusal import ContractError
 from relguide.flying.flight import Scenario
 from relguide.flying.scenarios import scenario
 from relguide.flying.tracks import RecordedTrack
-from relguide.planning.situation import IntentPiece, Situation
+from relguide.planning.intent import IntentPiece
+from relguide.planning.situation import Situation
 
 
 def scenario_of(wanted: FlightRequest) -> tuple[str, Scenario, Anchor]:

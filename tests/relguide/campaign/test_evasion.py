@@ -6,7 +6,8 @@ from math import pi
 import pytest
 
 from relguide.campaign.evasion import best_turn
-from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.situation import Situation
 from relguide.units import DEG, NM
 
 

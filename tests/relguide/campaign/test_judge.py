@@ -10,7 +10,7 @@ from relguide.flying.documents import Alert, FlightEnded, ForecastChanged, Sampl
 from relguide.flying.flight import fly
 from relguide.flying.plan_documents import PathPoint
 from relguide.planning.plan import plan
-from relguide.planning.situation import Wind
+from relguide.planning.wind import Wind
 from tests.plans import find_plan
 
 

@@ -14,7 +14,7 @@ from relguide.flying.flight import Scenario, world_of
 from relguide.flying.scenarios import own_scenario
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.wind_profile import WindLevel, WindProfile
-from relguide.planning.situation import wind_from
+from relguide.planning.wind import wind_from
 from tests.bodies import BODY
 
 ROOT = Path(__file__).parents[3]

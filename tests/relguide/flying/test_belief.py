@@ -15,8 +15,10 @@ from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, World
 from relguide.kernels.flight.flight_records import Drift
 from relguide.kernels.flight.laws import ground_track
 from relguide.kernels.flight.program import roll_lead
-from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo, Wind
+from relguide.planning.aircraft import Leader
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT
+from relguide.planning.wind import Wind
 from relguide.units import DEG, NM
 from tests.aloft import level
 

@@ -26,8 +26,9 @@ from relguide.flying.orders import (
     SetEngagement,
 )
 from relguide.flying.scenarios import own_scenario, scenario
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.plan import plan
-from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.planning.situation import Situation
 from relguide.units import DEG, KT, NM
 
 T = TypeVar("T")

@@ -28,9 +28,11 @@ from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.flying.tracks import RecordedTrack
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.frames import LocalPlane
+from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.plan import NoPlan, Plan, Reason, plan
-from relguide.planning.situation import FlyStraight, Situation, TurnTo, wind_from
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
+from relguide.planning.wind import wind_from
 from relguide.units import DEG, NM
 from tests.flights import Flown, Instant, fly_whole, instant, random_start
 from tests.liars import LIED_ABOUT

@@ -10,7 +10,9 @@ import pytest
 
 from relguide.flying.documents import ForecastChanged
 from relguide.flying.scenarios import LEADER_TURNS_AT, fig_6, own_scenario
-from relguide.planning.situation import Leader, Pursuer, Situation, wind_from
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.situation import Situation
+from relguide.planning.wind import wind_from
 from relguide.units import DEG, KT, NM, Metre, Second
 from tests.flights import Flown, Instant, fly_whole
 

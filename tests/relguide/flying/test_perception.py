@@ -14,7 +14,7 @@ from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.world import Aircraft, Declared, Guided, Link, World
 from relguide.kernels.flight.flight_records import Drift
 from relguide.kernels.flight.laws import ground_track
-from relguide.planning.situation import CALM, Wind
+from relguide.planning.wind import CALM, Wind
 from relguide.units import DEG, NM
 from tests.aloft import level
 

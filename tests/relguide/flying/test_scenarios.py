@@ -7,7 +7,7 @@ import pytest
 from relguide.flying import scenarios
 from relguide.flying.flight import DeclaredLeader
 from relguide.flying.scenarios import SCENARIOS, fig_6, own_scenario, scenario
-from relguide.planning.situation import FlyStraight
+from relguide.planning.intent import FlyStraight
 from relguide.units import DEG, NM
 
 

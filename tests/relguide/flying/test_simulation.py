@@ -33,8 +33,9 @@ from relguide.flying.metrics import RECENT
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.world import Aircraft, Declared, Guided, Link, World
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.plan import NoPlan, Plan, plan
-from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.planning.situation import Situation
 from relguide.units import DEG, NM
 from tests.flights import Flown, fly_whole, random_start, saying
 from tests.recording import recording

@@ -17,10 +17,11 @@ from relguide.flying.simulation import simulate
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, Recorded, World
 from relguide.kernels.flight.energy import most_acceleration
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
+from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.limits import POSITION, TAS
 from relguide.planning.plan import plan
-from relguide.planning.situation import FlyStraight, TurnTo, Wind
 from relguide.planning.trajectory import RIGHT
+from relguide.planning.wind import Wind
 from relguide.units import DEG, NM
 from tests.flights import random_start
 from tests.recording import SPEED, recording

@@ -22,8 +22,8 @@ from relguide import (
     certify,
     plan,
 )
+from relguide.planning.intent import IntentPiece
 from relguide.planning.plan import Optimality
-from relguide.planning.situation import IntentPiece
 from relguide.units import DEG
 from tests.flights import random_start
 from tests.oracle import arrival_error

@@ -24,7 +24,7 @@ from relguide import (
 from relguide.contract.bodies import situation_from_json
 from relguide.flying.orders import LeaderHeading
 from relguide.flying.world import Link
-from relguide.planning.situation import ROUNDED
+from relguide.planning.intent import ROUNDED
 from relguide.planning.trajectory import Turn
 from relguide.units import DEG, KT, NM
 from tests.bodies import BODY

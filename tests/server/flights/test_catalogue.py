@@ -14,8 +14,8 @@ from relguide.contract.protocol import PROTOCOL
 from relguide.contract.refusal import parse
 from relguide.flying.documents import FlightStarted, LeaderChanged
 from relguide.flying.orders import no_commands
+from relguide.planning.intent import TurnTo
 from relguide.planning.plan import plan
-from relguide.planning.situation import TurnTo
 from relguide.planning.trajectory import RIGHT
 from tests.server.serving import TestClient
 

@@ -14,7 +14,7 @@ from relguide.kernels.base.motion import advance
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight import path as on
-from relguide.planning.situation import Leader, Pursuer
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.trajectory import Trajectory
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 

@@ -10,7 +10,8 @@ from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.pursuit import assignment_of, begin_pursuit
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.kernels.flight.flight_records import Control
-from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.situation import Situation
 from relguide.units import DEG, NM
 
 FIG_6B = fig_6(intent_known=True)

@@ -16,8 +16,10 @@ from relguide.flying.documents import (
 from relguide.flying.flight import Command, LeaderData, LeaderHeading, Scenario, fly, world_of
 from relguide.flying.guidances import GUIDANCES, Guidance
 from relguide.flying.scenarios import fig_6, own_scenario
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.plan import NoPlan, Plan
-from relguide.planning.situation import Leader, Pursuer, Situation, wind_from
+from relguide.planning.situation import Situation
+from relguide.planning.wind import wind_from
 from relguide.units import DEG, NM
 from tests.flights import Flown, saying
 

@@ -9,7 +9,9 @@ from relguide.flying.guidance.escape import escape, separation_on_heading
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
-from relguide.planning.situation import FlyStraight, Leader, Pursuer, Situation, TurnTo
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import FlyStraight, TurnTo
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT
 from relguide.units import DEG, NM
 from tests.relguide.flying.guidance.beliefs import Watched, behind

@@ -21,8 +21,9 @@ from relguide.flying.guidance.monitor import Outlook
 from relguide.flying.orders import Command, IntentKnown
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap_signed
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.plan import NoPlan, Reason, plan
-from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.planning.situation import Situation
 from relguide.units import DEG, KT, NM
 from tests.flights import Flown, fly_whole, random_start
 from tests.relguide.flying.guidance.beliefs import FIG_6B, behind, observe

@@ -11,8 +11,9 @@ from relguide.flying.leaders.declared import Program, program_of, remaining, tur
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import Body
 from relguide.kernels.flight.program import STRAIGHT, TURN, fly_program, roll_lead
+from relguide.planning.aircraft import Leader
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.limits import MAX_PIECES
-from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG
 from tests.aloft import LIMITS, STEP, STILL, level

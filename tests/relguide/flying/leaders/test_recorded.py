@@ -7,7 +7,7 @@ import pytest
 
 from relguide.flying.leaders.recorded import steps_of_track
 from relguide.kernels.base.turn import turn_rate
-from relguide.planning.situation import CALM, Wind
+from relguide.planning.wind import CALM, Wind
 from tests.recording import RATE, SPEED, recording
 
 TURNS = 60.0

@@ -31,9 +31,10 @@ from relguide.kernels.flight.guide import (
 )
 from relguide.kernels.flight.laws import ground_track
 from relguide.kernels.flight.marks import beside_marks
+from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.plan import plan
-from relguide.planning.situation import FlyStraight, TurnTo, wind_from
 from relguide.planning.trajectory import RIGHT
+from relguide.planning.wind import wind_from
 from relguide.units import DEG, NM
 from tests.aloft import GAINS, LIMITS, level, limits_of
 

@@ -17,7 +17,8 @@ from relguide.kernels.flight.program import (
     until_roll,
 )
 from relguide.kernels.flight.second import PROGRAMMED, fly_second
-from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo
+from relguide.planning.aircraft import Leader
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG
 from tests.aloft import LIMITS, STEP, STILL, level, steady

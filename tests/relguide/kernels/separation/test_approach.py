@@ -34,7 +34,7 @@ def test_no_sample_lies_below_the_bound_and_the_bound_is_close() -> None:
             pieces = np.column_stack((rng.uniform(1.0, 200.0, 4), rng.uniform(-0.03, 0.03, 4)))
             both.append(Motion(x, y, heading, 200.0, pieces))
         horizon = 600.0
-        least, at, bound = least_separation(*both, horizon, TOLERANCE)
+        least, at, bound = least_separation(*both, 0.0, horizon, TOLERANCE)
         times = np.linspace(0.0, horizon, 6001)
         away = np.hypot(*(sample(both[0], times) - sample(both[1], times)).T)
         assert away.min() >= bound
@@ -50,7 +50,7 @@ def test_a_circle_round_the_leader_is_proved_to_its_distance() -> None:
     once = 2.0 * pi * radius / speed
     pursuer = Motion(radius, 0.0, 0.0, speed, np.array([[once, -speed / radius]]))
     leader = Motion(0.0, 0.0, 0.0, 0.0, np.empty((0, 2)))
-    _, _, bound = least_separation(pursuer, leader, once, TOLERANCE)
+    _, _, bound = least_separation(pursuer, leader, 0.0, once, TOLERANCE)
     assert bound == pytest.approx(radius, abs=TOLERANCE + 1e-5)
 
 

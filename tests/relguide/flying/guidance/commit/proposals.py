@@ -6,9 +6,7 @@ from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.guidance.commit.proposal import Proposal
 from relguide.flying.guidance.commit.propose import propose
 from relguide.planning.plan import Planner, plan
-from relguide.planning.situation import (
-    wind_from,
-)
+from relguide.planning.wind import wind_from
 from relguide.units import DEG
 from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, observe
 

@@ -11,9 +11,7 @@ from relguide.flying.guidance.commit.proposal import NotBetter, Proposal
 from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.planning.plan import NoPlan, Optimality, Plan, plan
-from relguide.planning.situation import (
-    Situation,
-)
+from relguide.planning.situation import Situation
 from relguide.planning.words import candidates
 from tests.liars import ends_beside
 from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, behind, observe

@@ -15,16 +15,12 @@ from relguide.flying.pursuit import begin_pursuit
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.flight.ahead import MODE
 from relguide.kernels.flight.guide import CONVERGE
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.plan import NoPlan, Plan, Reason, plan
-from relguide.planning.situation import (
-    FlyStraight,
-    Leader,
-    Pursuer,
-    Situation,
-    TurnTo,
-    Wind,
-)
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
+from relguide.planning.wind import Wind
 from relguide.units import DEG, NM
 from tests.flights import fly_whole, random_start
 from tests.liars import ends_beside
