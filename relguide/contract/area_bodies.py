@@ -6,8 +6,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from relguide.contract.bodies import Anchor, Position, SituationBody
+from relguide.contract.bodies import SituationBody
 from relguide.contract.compass import compass
+from relguide.contract.places import Anchor, Position
 from relguide.contract.refusal import Strict
 from relguide.maps.contours import Floats
 from relguide.maps.isochrones import (

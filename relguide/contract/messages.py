@@ -32,8 +32,9 @@ from pydantic import (
     model_validator,
 )
 
-from relguide.contract.bodies import Intent, Tas
 from relguide.contract.flown_bodies import FlownSituationBody
+from relguide.contract.intent_bodies import Intent
+from relguide.contract.other_bodies import Tas
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.aircraft_documents import ReferenceCard
