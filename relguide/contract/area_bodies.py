@@ -50,6 +50,10 @@ INTENT = (
     "the leader gets there; each plan keeps the minimum separation from the leader as it really "
     "flies."
 )
+AMID = (
+    "Other traffic, cells and heights are not counted. Amid the others a plan may take longer than "
+    "the time given; where height keeps the leader apart it may be faster."
+)
 DRAWN = (
     "Each vertex of a line is on its level to 0.1 s; lines are cut where the time jumps. Each "
     "vertex of a region lies on an edge of the grid, accurate to an eighth of that edge."
@@ -255,5 +259,6 @@ def _notes(area: Isochrones, situation: Situation, *, exact: bool) -> list[str]:
         ASKED if asked else EXACT,
         *((SEARCHED if exact else BOUND,) if limited else ()),
         *((INTENT,) if situation.leader.intent else ()),
+        *((AMID,) if situation.others or situation.pursuer.altitude is not None else ()),
         DRAWN,
     ]
