@@ -10,8 +10,8 @@ from typing import IO, Annotated, NamedTuple
 
 from pydantic import Field
 
-from relguide.contract.bodies import Tas
 from relguide.contract.compass import heading_of
+from relguide.contract.other_bodies import Tas
 from relguide.contract.refusal import ContractError, Strict, loads, parse
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.flying.orders import Command, IntentKnown, LeaderHeading, LeaderSpeed

@@ -27,6 +27,14 @@ def too_close(least: Metre, limit: Metre) -> str:
     return f"within {distance(least)}"
 
 
+def too_close_to(ident: str, least: Metre, limit: Metre) -> str:
+    """The same of other traffic, or of a cell, whose limit is 0 and whose inside is negative."""
+    if limit <= 0.0:
+        return f"{distance(abs(least))} into {ident}"
+    close = too_close(least, limit)
+    return f"{close} {'of' if close.startswith('within') else 'to'} {ident}"
+
+
 def duration(time: Second) -> str:
     """A time to a tenth of a second; from ten seconds on, to a second."""
     if time < 0.05:
