@@ -14,11 +14,11 @@ times the horizontal minimum counts.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from math import inf
+from math import copysign, inf
 from typing import NamedTuple
 
 from relguide.planning.aircraft import Leader, Pursuer, Traffic
-from relguide.planning.intent import ChangeLevel, SpeedRule
+from relguide.planning.intent import ChangeLevel, LevelChange
 from relguide.units import FT, Metre, MetrePerSecond, Second
 
 VERTICAL_MINIMUM: Metre = 1_000.0 * FT
@@ -32,22 +32,13 @@ START_TOLERANCE: Second = 5.0
 ALTIMETRY: Metre = 200.0 * FT
 """How far off an aircraft may be while its level changes, beside that [m]."""
 
+JOINED_HEIGHT: Metre = 300.0 * FT
+"""A pursuer so near the level of its leader has joined it [m]."""
+
 Interval = tuple[Second, Second]
 """From when until when [s]; the end may be infinite."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LevelChange:
-    """A climb or a descent to a level, begun at a time."""
-
-    at: Second
-    """When it begins [s]."""
-    to_altitude: Metre
-    """Where it ends [m]."""
-    rate: MetrePerSecond
-    """How fast [m/s], > 0."""
-    hold: SpeedRule = "cas"
-    """What the aircraft keeps meanwhile."""
+ALWAYS: tuple[Interval, ...] = ((0.0, inf),)
+"""All time."""
 
 
 class _Knot(NamedTuple):
@@ -84,6 +75,18 @@ class Heights:
             return None
         return self.changes[-1].to_altitude if self.changes else self.altitude
 
+    def at(self, t: Second) -> Metre | None:
+        """Where the aircraft is at a time if it keeps to what it declared [m]."""
+        altitude = self.altitude
+        if altitude is None:
+            return None
+        ends = [change.at for change in self.changes[1:]] + [inf]
+        for change, end in zip(self.changes, ends, strict=False):
+            way = change.to_altitude - altitude
+            step = change.rate * max(min(t, end) - change.at, 0.0)
+            altitude += copysign(min(abs(way), step), way)
+        return altitude
+
     def settled(self) -> Second:
         """When the last change is over for certain [s]; infinite where no level is known."""
         if self.altitude is None:
@@ -110,16 +113,14 @@ class KeptByHeight(NamedTuple):
 
 
 def heights_of(aircraft: Pursuer | Leader | Traffic) -> Heights:
-    """What an aircraft declares of its altitude. A pursuer declares that it stays where it is."""
+    """What an aircraft declares, or plans, of its altitude."""
     if isinstance(aircraft, Pursuer):
-        return Heights(altitude=aircraft.altitude)
+        return Heights(altitude=aircraft.altitude, changes=aircraft.levels)
     changes, t = [], 0.0
     durations = iter(aircraft.trajectory.durations()) if aircraft.intent else iter(())
     for piece in aircraft.intent:
         if isinstance(piece, ChangeLevel):
-            changes.append(
-                LevelChange(at=t, to_altitude=piece.to_altitude, rate=piece.rate, hold=piece.hold)
-            )
+            changes.append(LevelChange(at=t, to_altitude=piece.to_altitude, rate=piece.rate))
         else:
             t += float(next(durations))
     return Heights(altitude=aircraft.altitude, changes=tuple(changes))
@@ -137,7 +138,7 @@ def counted(own: Heights, other: Heights) -> tuple[Interval, ...]:
         1,000 ft apart.
     """
     if own.altitude is None or other.altitude is None:
-        return ((0.0, inf),)
+        return ALWAYS
     return tuple((since, until) for since, until, certain, _ in _spans(own, other) if not certain)
 
 

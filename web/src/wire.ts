@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-723442a8cc3d";
+export const PROTOCOL = "relguide-71e8398ca554";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -81,7 +81,9 @@ export type Reason =
   | "separation_already_lost"
   | "separation_unavoidable"
   | "beyond_horizon"
-  | "deadline";
+  | "deadline"
+  | "traffic"
+  | "level";
 
 /** A piece of a path over the ground. */
 export type PathSegment = TurnSegment | StraightSegment | BoundarySegment;

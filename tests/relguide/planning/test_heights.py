@@ -6,7 +6,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from relguide import ChangeLevel, FlyStraight, Leader, Pursuer, Traffic, TurnTo
+from relguide import ChangeLevel, FlyStraight, Leader, LevelChange, Pursuer, Traffic, TurnTo
 from relguide.planning.heights import (
     ALTIMETRY,
     RATE_TOLERANCE,
@@ -14,7 +14,6 @@ from relguide.planning.heights import (
     VERTICAL_MINIMUM,
     WHOLE_METRE,
     Heights,
-    LevelChange,
     counted,
     heights_of,
     kept_by_height,
