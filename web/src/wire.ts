@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-8ab3fa89abc0";
+export const PROTOCOL = "relguide-9efc729ad1bc";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -82,7 +82,8 @@ export type Reason =
   | "separation_unavoidable"
   | "beyond_horizon"
   | "deadline"
-  | "traffic";
+  | "traffic"
+  | "level";
 
 /** A piece of a path over the ground. */
 export type PathSegment = TurnSegment | StraightSegment | BoundarySegment;
