@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-9efc729ad1bc";
+export const PROTOCOL = "relguide-d8bc229d4e16";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -319,6 +319,32 @@ export interface BoundarySegment {
   via: PathPoint[];
 }
 
+/**
+ * A weather cell: all places no farther than `radius` from the convex hull of its corners.
+ *
+ * A disc has one corner, its middle; a polygon has radius 0. Given as it is at t = 0, in columns of
+ * equal length; it moves over the ground, and its radius grows.
+ */
+export interface CellCard {
+  /** Its name in all documents of the flight. */
+  ident: string;
+  /** Of its corners, counter-clockwise, east. */
+  x_m: number[];
+  /** … and north. */
+  y_m: number[];
+  radius_m: number;
+  /** How fast it moves toward the east. */
+  east_mps: number;
+  /** … and toward the north. */
+  north_mps: number;
+  /** How fast its radius grows. */
+  growth_mps: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number[];
+}
+
 /** What the best path that was found comes too close to. */
 export interface ConflictCard {
   /** Of other traffic, or of a cell. */
@@ -467,6 +493,8 @@ export interface FlightStarted {
   /** Integration step [s]. */
   step_s: number;
   seed: number;
+  /** Weather to be kept out of. */
+  cells?: CellCard[];
 }
 
 /** Where a flight stands. */
