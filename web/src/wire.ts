@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-723442a8cc3d";
+export const PROTOCOL = "relguide-9d10f636280a";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -81,7 +81,8 @@ export type Reason =
   | "separation_already_lost"
   | "separation_unavoidable"
   | "beyond_horizon"
-  | "deadline";
+  | "deadline"
+  | "traffic";
 
 /** A piece of a path over the ground. */
 export type PathSegment = TurnSegment | StraightSegment | BoundarySegment;
@@ -611,6 +612,7 @@ export interface HeadingReference {
 export interface IntentKnownCommand {
   command: "intent_known";
   known: boolean;
+  ident?: string;
 }
 
 /** The leader does something new, or its intent was received or withdrawn. */
@@ -627,6 +629,7 @@ export interface LeaderChanged {
 export interface LeaderDataCommand {
   command: "leader_data";
   received: boolean;
+  ident?: string;
 }
 
 /** Instruct the leader to turn to a heading. */
@@ -634,6 +637,7 @@ export interface LeaderHeadingCommand {
   command: "leader_heading";
   heading_deg: number;
   direction?: Direction | null;
+  ident?: string;
 }
 
 /**
@@ -656,6 +660,7 @@ export interface LeaderRoute {
 export interface LeaderSpeedCommand {
   command: "leader_speed";
   tas_mps: number;
+  ident?: string;
 }
 
 /** What a pursuer is to do: join its leader, and stay behind it. */
@@ -1009,6 +1014,7 @@ export interface PromiseChanged {
 export interface PursuerHeadingCommand {
   command: "pursuer_heading";
   heading_deg: number;
+  ident?: string;
 }
 
 /** The flight at one instant. */
@@ -1084,6 +1090,7 @@ export interface SeparationLost {
 export interface SetEngagementCommand {
   command: "set_engagement";
   engagement: Engagement;
+  ident?: string;
 }
 
 /** Change how fast simulated time runs. */
