@@ -10,6 +10,7 @@ from functools import partial
 from itertools import count
 from typing import get_args
 
+from relguide.flying.aircraft_ahead import mind_ahead
 from relguide.flying.aircraft_documents import AircraftCard, LinkCard
 from relguide.flying.belief import Belief
 from relguide.flying.braking import learn_braking
@@ -145,7 +146,7 @@ def _simulate(
         for command in commands(t):
             yield from _obey(command, fleet, pursuits, t)
         for one in pursuits:
-            yield from _guide(one, fleet, guide, fan, t)
+            yield from _guide(one, pursuits, fleet, guide, fan, t)
         end = _end(pursuits, fleet, t, until, after_joining)
         if end is not None:
             yield from _finish(pursuits, fleet, t, *end)
@@ -228,7 +229,7 @@ def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) ->
     if not (command.ident or links):
         return
     ordered = world.index(command.ident or links[0][1])
-    behind = [one for one in pursuits if one.leader == ordered]
+    behind = [one for one in pursuits if ordered in (one.leader, one.ahead)]
     known, said = obey(command, fleet, ordered, any(one.known for one in behind), t)
     for one in behind:
         one.known = known
@@ -241,7 +242,9 @@ def _pursuits_of(ident: str, pursuits: list[Pursuit]) -> list[Pursuit]:
     return [one for one in pursuits if ident == one.names.pursuer] if ident else pursuits[:1]
 
 
-def _guide(one: Pursuit, fleet: Fleet, guide: Guide, fan: Fan, t: Second) -> Iterator[Document]:
+def _guide(
+    one: Pursuit, pursuits: list[Pursuit], fleet: Fleet, guide: Guide, fan: Fan, t: Second
+) -> Iterator[Document]:
     """One act of guidance, and what is new of the leader."""
     learn_braking(one, fleet)
     yield from doubt_leader(one, fleet, t)
@@ -250,6 +253,7 @@ def _guide(one: Pursuit, fleet: Fleet, guide: Guide, fan: Fan, t: Second) -> Ite
     yield from watch_leader(one, belief)
     keep_margin(one, belief)
     one.memory, advice = guide(one.memory, belief, one.assignment)
+    advice = mind_ahead(one, pursuits, fleet, belief, advice)
     for event in advice.events:
         document = event_document(t, one.names, event)
         one.metrics = count_event(one.metrics, document)
@@ -301,7 +305,7 @@ def _finish(
             one.names,
             one.metrics,
             one.memory.fallbacks,
-            optimum(fleet.world, one.link) if one.metrics.joined else 0.0,
+            optimum(fleet.world, one.flown) if one.metrics.joined else 0.0,
         )
         for one in pursuits
     )
