@@ -173,6 +173,8 @@ Rate = Annotated[float, Field(ge=1.0, le=60.0)]
 """Accepted simulated seconds per second."""
 Seed = Annotated[int, Field(ge=0, le=2**32 - 1)]
 """Accepted seeds of a flight's random numbers."""
+Ident = Annotated[str, Field(max_length=100)]
+"""Of an aircraft of the flight."""
 SpacingTime = Annotated[float, Field(gt=0.0, le=SPACING.high)]
 """Accepted times behind the leader [s]."""
 
@@ -449,6 +451,8 @@ class LeaderHeadingCommand(Strict):
     """Clockwise from true north."""
     direction: Direction | None = None
     """Which way round; if left out, the shorter."""
+    ident: Ident = ""
+    """Of the aircraft; if left out, the first link's leader."""
 
 
 class LeaderSpeedCommand(Strict):
@@ -458,6 +462,8 @@ class LeaderSpeedCommand(Strict):
     """Which command it is."""
     tas_mps: Tas
     """True airspeed."""
+    ident: Ident = ""
+    """Of the aircraft; if left out, the first link's leader."""
 
 
 class IntentKnownCommand(Strict):
@@ -467,6 +473,8 @@ class IntentKnownCommand(Strict):
     """Which command it is."""
     known: bool
     """Whether the pursuer knows it from now on."""
+    ident: Ident = ""
+    """Of the leader; if left out, the first link's."""
 
 
 class LeaderDataCommand(Strict):
@@ -476,6 +484,8 @@ class LeaderDataCommand(Strict):
     """Which command it is."""
     received: bool
     """Whether they are received from now on."""
+    ident: Ident = ""
+    """Of the pursuer; if left out, the first link's."""
 
 
 class PursuerHeadingCommand(Strict):
@@ -485,6 +495,8 @@ class PursuerHeadingCommand(Strict):
     """Which command it is."""
     heading_deg: float
     """Clockwise from true north."""
+    ident: Ident = ""
+    """Of the pursuer; if left out, the first link's."""
 
 
 class SetEngagementCommand(Strict):
@@ -494,6 +506,8 @@ class SetEngagementCommand(Strict):
     """Which command it is."""
     engagement: Engagement
     """How far guidance is engaged from now on."""
+    ident: Ident = ""
+    """Of the pursuer; if left out, the first link's."""
 
 
 Command = Annotated[

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-d8bc229d4e16";
+export const PROTOCOL = "relguide-35aa3d8873a3";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -690,6 +690,7 @@ export interface HeadingReference {
 export interface IntentKnownCommand {
   command: "intent_known";
   known: boolean;
+  ident?: string;
 }
 
 /** Asked later there is a plan. */
@@ -718,6 +719,7 @@ export interface LeaderChanged {
 export interface LeaderDataCommand {
   command: "leader_data";
   received: boolean;
+  ident?: string;
 }
 
 /** Instruct the leader to turn to a heading. */
@@ -725,6 +727,7 @@ export interface LeaderHeadingCommand {
   command: "leader_heading";
   heading_deg: number;
   direction?: Direction | null;
+  ident?: string;
 }
 
 /**
@@ -747,6 +750,7 @@ export interface LeaderRoute {
 export interface LeaderSpeedCommand {
   command: "leader_speed";
   tas_mps: number;
+  ident?: string;
 }
 
 /** A climb or a descent to a level. */
@@ -1173,6 +1177,7 @@ export interface PromiseChanged {
 export interface PursuerHeadingCommand {
   command: "pursuer_heading";
   heading_deg: number;
+  ident?: string;
 }
 
 /** The flight at one instant. */
@@ -1252,6 +1257,7 @@ export interface SeparationLost {
 export interface SetEngagementCommand {
   command: "set_engagement";
   engagement: Engagement;
+  ident?: string;
 }
 
 /** Change how fast simulated time runs. */
