@@ -60,8 +60,8 @@ class LinkCard:
 class CellCard:
     """A weather cell: all places no farther than `radius` from the convex hull of its corners.
 
-    A disc has one corner, its middle; a polygon has radius 0. Given as it is at t = 0, in columns of
-    equal length; it moves over the ground, and its radius grows.
+    A disc has one corner, its middle; a polygon has radius 0. Given as it is at t = 0, in columns
+    of equal length; it moves over the ground, and its radius grows.
     """
 
     ident: str
