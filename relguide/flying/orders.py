@@ -5,13 +5,14 @@ from dataclasses import dataclass
 from typing import Literal, assert_never, get_args
 
 from relguide.flying.documents import Engagement, LeaderChanged
+from relguide.flying.envelope import flight_level
 from relguide.flying.fleet import Fleet
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.kernels.base.angles import wrap
 from relguide.planning.inputs import expect_within, truth
-from relguide.planning.limits import HEADING, TAS
+from relguide.planning.limits import ALTITUDE, HEADING, TAS, VERTICAL_RATE
 from relguide.planning.phrases import compass
-from relguide.units import DEG, KT, MetrePerSecond, Radian, Second
+from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, Second
 
 ORDERED_BANK: Radian = 25.0 * DEG
 """Of the turns that a leader makes when ordered to [rad]."""
@@ -43,6 +44,23 @@ class LeaderSpeed:
     def __post_init__(self) -> None:
         """Refuse a speed outside the accepted range."""
         object.__setattr__(self, "tas", expect_within("tas", self.tas, *TAS))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LeaderLevel:
+    """The leader is to climb or descend to a level. A recorded leader leaves its recording."""
+
+    altitude: Metre
+    """Pressure altitude [m]."""
+    rate: MetrePerSecond = 7.62
+    """How fast [m/s], > 0; 1,500 ft/min."""
+    kind: Literal["leader_level"] = "leader_level"
+
+    def __post_init__(self) -> None:
+        """Refuse a level or a rate outside the accepted range."""
+        for name, accepted in (("altitude", ALTITUDE), ("rate", VERTICAL_RATE)):
+            value = expect_within(name, getattr(self, name), *accepted)
+            object.__setattr__(self, name, value)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,7 +127,7 @@ def _settle_heading(order: LeaderHeading | PursuerHeading) -> None:
     object.__setattr__(order, "heading", expect_within("heading", order.heading, *HEADING))
 
 
-LeaderCommand = LeaderHeading | LeaderSpeed | IntentKnown
+LeaderCommand = LeaderHeading | LeaderSpeed | LeaderLevel | IntentKnown
 """What the leader does."""
 CrewCommand = LeaderData | PursuerHeading | SetEngagement
 """What the pursuer's crew does, and what it receives."""
@@ -143,6 +161,12 @@ def obey(
             fleet.set_speed(i, tas)
             message = f"The leader is instructed to fly {tas / KT:.0f} kt."
             return known, (LeaderChanged(t=t, ident=ident, change="speed", message=message),)
+        case LeaderLevel(altitude=altitude, rate=rate):
+            below = altitude < fleet.verticals[i].altitude
+            fleet.change_level(i, altitude, rate, "cas")
+            way, level = "descend" if below else "climb", flight_level(altitude)
+            message = f"The leader is instructed to {way} to {level}."
+            return known, (LeaderChanged(t=t, ident=ident, change="level", message=message),)
         case IntentKnown(known=now) if now == known:
             return known, ()
         case IntentKnown(known=True):

@@ -27,6 +27,7 @@ from relguide.flying.documents import (
 from relguide.flying.fans import Wants, follow_fan, no_fans
 from relguide.flying.fleet import Fleet
 from relguide.flying.guidance.choice import Guide, guide_by
+from relguide.flying.guidance.level import follow_level
 from relguide.flying.guidances import Guidance, expect_guidance
 from relguide.flying.leader_watch import (
     doubt_leader,
@@ -44,7 +45,7 @@ from relguide.flying.orders import (
     no_commands,
     obey,
 )
-from relguide.flying.pursuit import Pursuit, begin_pursuit, keep_margin
+from relguide.flying.pursuit import Pursuit, begin_pursuit, fit_to_level, keep_margin
 from relguide.flying.world import World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
 from relguide.planning.plan import Planner, plan
@@ -236,6 +237,7 @@ def _guide(one: Pursuit, fleet: Fleet, guide: Guide, fan: Fan, t: Second) -> Ite
     one.track.add(belief.leader, belief.drift, t)
     yield from watch_leader(one, belief)
     keep_margin(one, belief)
+    fit_to_level(one, fleet)
     one.memory, advice = guide(one.memory, belief, one.assignment)
     for event in advice.events:
         document = event_document(t, one.names, event)
@@ -249,6 +251,9 @@ def _guide(one: Pursuit, fleet: Fleet, guide: Guide, fan: Fan, t: Second) -> Ite
     one.advice = advice
     yield from fan(one, belief)
     fleet.control(one.pursuer, advice.control)
+    level = follow_level(one.memory, belief, one.assignment)
+    if level is not None:
+        fleet.change_level(one.pursuer, level.to, level.rate)
 
 
 def _end(
