@@ -140,9 +140,7 @@ def _guidance_sample(
         commanded_tas=advice.control.tas,
         separation=separation,
         closure=closure,
-        least_separation=least
-        if abs(other.altitude - own.altitude) >= KEPT
-        else min(least, separation),
+        least_separation=least if by_height else min(least, separation),
         slot=PathPoint(t=t, x=slot_x, y=slot_y, heading=wrap(slot.heading + 2.0 * half_turn)),
         slot_open=advice.slot_open,
         spacing_error=-(dx * slot_east + dy * slot_north) / slot_speed,
