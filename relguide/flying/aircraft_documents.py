@@ -57,6 +57,29 @@ class LinkCard:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CellCard:
+    """A weather cell: all places no farther than `radius` from the convex hull of its corners.
+
+    A disc has one corner, its middle; a polygon has radius 0. Given as it is at t = 0, in columns
+    of equal length; it moves over the ground, and its radius grows.
+    """
+
+    ident: str
+    """Its name in all documents of the flight."""
+    x: tuple[Metre, ...]
+    """Of its corners, counter-clockwise, east."""
+    y: tuple[Metre, ...]
+    """… and north."""
+    radius: Metre
+    east: MetrePerSecond
+    """How fast it moves toward the east."""
+    north: MetrePerSecond
+    """… and toward the north."""
+    growth: MetrePerSecond
+    """How fast its radius grows."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class AircraftSample:
     """One aircraft at one instant, as it flies (roll dynamics included)."""
 

@@ -16,6 +16,7 @@ from relguide.flying.aircraft_documents import (
     AircraftCard,
     AircraftSample,
     AlertLevel,
+    CellCard,
     GuidanceSample,
     LinkCard,
     LinkResult,
@@ -62,6 +63,8 @@ class FlightStarted:
     step: Second
     """Integration step [s]."""
     seed: int
+    cells: tuple[CellCard, ...] = field(default=(), metadata=ADDED)
+    """Weather to be kept out of."""
     kind: Literal["flight_started"] = "flight_started"
 
 

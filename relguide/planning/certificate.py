@@ -247,3 +247,8 @@ def cell_shape(cell: Cell, wind: Wind) -> tuple[FloatArray, FloatArray]:
             assert_never(cell.shape)
     velocity = cell.east - wind.east, cell.north - wind.north
     return np.array(corners), np.array((radius, cell.growth, *velocity))
+
+
+def lost_to(certificate: Certificate) -> OtherSeparation | None:
+    """The other that a path comes too close to, by the most; `None` if it keeps clear of all."""
+    return next((other for other in certificate.others if not other.holds), None)

@@ -238,6 +238,9 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
     touch d_min or slide along it are searched too. The plan is then the fastest path that
     certifies, and the time of the fastest candidate is its lower bound (`proof="bound"`).
 
+    Amid others, what is proved for the leader alone is a lower bound, and if that plan keeps clear
+    of all it is the answer. If not, paths that touch any of them are searched (`planning/amid.py`).
+
     The work is bounded whatever the situation: contacts are searched at a fixed number of bearings
     for each piece of the leader's intent, a word has at most 96 roots, a certificate takes at most
     131,072 windows, and nothing beyond 12 hours is considered. The slowest case found takes some
@@ -254,6 +257,8 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
         ValueError: if the deadline is out of range, or `situation` is no situation.
     """
     expect("situation", situation, Situation)
+    if situation.others:
+        return _amid_others(situation, deadline)
     until = end_of(deadline)
     if chooses_level(situation):
         return _plan_by_level(situation, until)
@@ -284,6 +289,8 @@ def plan_at_once(situation: Situation) -> Plan | NoPlan | None:
     runs a small part of the planner's machine code.
     """
     expect("situation", situation, Situation)
+    if situation.others:
+        return _at_once_amid_others(situation)
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
     if chooses_level(situation) or (
@@ -299,6 +306,26 @@ def plan_at_once(situation: Situation) -> Plan | NoPlan | None:
             return beyond
         chosen = _fastest_extremal(found, situation, radius, path_of(found.leader), inf)
     return None if chosen is None else _plan_of(chosen, situation, started)
+
+
+def _amid_others(situation: Situation, deadline: Second | None) -> Plan | NoPlan:
+    """As `plan`, where there is more to keep clear of than the leader."""
+    from relguide.planning import amid  # most who plan have no others
+
+    if deadline is not None:
+        amid.load_kernels()
+    return amid.plan_amid(situation, until=end_of(deadline))
+
+
+def _at_once_amid_others(situation: Situation) -> Plan | NoPlan | None:
+    """As `plan_at_once`: what is so for the leader alone, if it keeps clear of all others."""
+    alone = plan_at_once(replace(situation, others=()))
+    if not isinstance(alone, Plan):
+        return alone
+    certificate = certify(alone.trajectory, situation)
+    return (
+        replace(alone, situation=situation, certificate=certificate) if certificate.holds else None
+    )
 
 
 def _separation(situation: Situation) -> Metre:

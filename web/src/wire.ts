@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-71e8398ca554";
+export const PROTOCOL = "relguide-35aa3d8873a3";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -122,7 +122,7 @@ export type Document =
 export type PlanAnswer = PlanCard | NoPlanCard;
 
 /** A piece of the leader's intent. */
-export type IntentPiece = StraightPiece | TurnPiece;
+export type IntentPiece = StraightPiece | TurnPiece | LevelChangePiece;
 
 /** A request for a new flight. */
 export type FlightRequest = ScenarioFlightRequest | SituationFlightRequest;
@@ -319,6 +319,44 @@ export interface BoundarySegment {
   via: PathPoint[];
 }
 
+/**
+ * A weather cell: all places no farther than `radius` from the convex hull of its corners.
+ *
+ * A disc has one corner, its middle; a polygon has radius 0. Given as it is at t = 0, in columns
+ * of equal length; it moves over the ground, and its radius grows.
+ */
+export interface CellCard {
+  /** Its name in all documents of the flight. */
+  ident: string;
+  /** Of its corners, counter-clockwise, east. */
+  x_m: number[];
+  /** … and north. */
+  y_m: number[];
+  radius_m: number;
+  /** How fast it moves toward the east. */
+  east_mps: number;
+  /** … and toward the north. */
+  north_mps: number;
+  /** How fast its radius grows. */
+  growth_mps: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number[];
+}
+
+/** What the best path that was found comes too close to. */
+export interface ConflictCard {
+  /** Of other traffic, or of a cell. */
+  ident: string;
+  /** When it is nearest. */
+  at_s: number;
+  /** How near it comes; negative inside a cell. */
+  least_m: number;
+  /** What is to be kept; 0 of a cell. */
+  min_separation_m: number;
+}
+
 /** A contact with d = d_min, or the beginning or end of a boundary arc. */
 export interface ContactCard {
   /** When. */
@@ -346,6 +384,14 @@ export interface CostatesCard {
   separation_costate_s_per_m: number[];
   /** λ_θ. */
   bearing_costate_s_per_deg: number[];
+}
+
+/** A round weather cell at all levels, to be kept out of. */
+export interface DiscCell {
+  ident: string;
+  disc: LocalDisc | GeodeticDisc;
+  velocity_mps?: number[];
+  growth_mps?: number;
 }
 
 /** A word that reaches the place of the slot before it opens. */
@@ -447,6 +493,8 @@ export interface FlightStarted {
   /** Integration step [s]. */
   step_s: number;
   seed: number;
+  /** Weather to be kept out of. */
+  cells?: CellCard[];
 }
 
 /** Where a flight stands. */
@@ -514,6 +562,8 @@ export interface FlownSituationBody {
   slot_distance_m: number;
   min_separation_m: number;
   wind?: WindBody;
+  traffic?: (LocalTraffic | GeodeticTraffic)[];
+  cells?: (DiscCell | PolygonCell)[];
   id?: string | number;
   air?: AirBody | null;
   believed_air?: AirBody | null;
@@ -551,6 +601,19 @@ export interface ForecastChanged {
   lon_deg?: number[];
 }
 
+/** A corner of a cell, placed on the earth (WGS84). */
+export interface GeodeticCorner {
+  lat_deg: number;
+  lon_deg: number;
+}
+
+/** A round cell, at t = 0, placed on the earth (WGS84). */
+export interface GeodeticDisc {
+  lat_deg: number;
+  lon_deg: number;
+  radius_m: number;
+}
+
 /** The aircraft to be joined, at t = 0, placed on the earth (WGS84). */
 export interface GeodeticLeader {
   lat_deg: number;
@@ -558,6 +621,7 @@ export interface GeodeticLeader {
   heading_deg: number;
   tas_mps: number;
   intent?: IntentPiece[];
+  altitude_m?: number | null;
 }
 
 /** The aircraft that is guided, at t = 0, placed on the earth (WGS84). */
@@ -567,6 +631,19 @@ export interface GeodeticPursuer {
   heading_deg: number;
   tas_mps: number;
   max_bank_deg: number;
+  altitude_m?: number | null;
+}
+
+/** Another aircraft, at t = 0, placed on the earth (WGS84): to be kept clear of. */
+export interface GeodeticTraffic {
+  ident: string;
+  lat_deg: number;
+  lon_deg: number;
+  heading_deg: number;
+  tas_mps: number;
+  altitude_m?: number | null;
+  intent?: IntentPiece[];
+  min_separation_m?: number | null;
 }
 
 /** What the guidance of one pursuer does at one instant, and how it stands to its leader. */
@@ -613,6 +690,19 @@ export interface HeadingReference {
 export interface IntentKnownCommand {
   command: "intent_known";
   known: boolean;
+  ident?: string;
+}
+
+/** Asked later there is a plan. */
+export interface LaterRemedy {
+  /** Asked later. */
+  kind: "later";
+  /** How much later. */
+  later_s: number;
+  /** T of that plan, from then on. */
+  time_to_converge_s: number;
+  /** The same in a sentence. */
+  message: string;
 }
 
 /** The leader does something new, or its intent was received or withdrawn. */
@@ -629,6 +719,7 @@ export interface LeaderChanged {
 export interface LeaderDataCommand {
   command: "leader_data";
   received: boolean;
+  ident?: string;
 }
 
 /** Instruct the leader to turn to a heading. */
@@ -636,6 +727,7 @@ export interface LeaderHeadingCommand {
   command: "leader_heading";
   heading_deg: number;
   direction?: Direction | null;
+  ident?: string;
 }
 
 /**
@@ -658,6 +750,31 @@ export interface LeaderRoute {
 export interface LeaderSpeedCommand {
   command: "leader_speed";
   tas_mps: number;
+  ident?: string;
+}
+
+/** A climb or a descent to a level. */
+export interface LevelChange {
+  to_altitude_m: number;
+  rate_mps: number;
+  hold?: "cas" | "mach" | "tas";
+}
+
+/** A piece of intent: begin to change the level. The pieces behind it are flown meanwhile. */
+export interface LevelChangePiece {
+  level_change: LevelChange;
+}
+
+/** At another level there is a plan. */
+export interface LevelRemedy {
+  /** Another level. */
+  kind: "level";
+  /** The level. */
+  altitude_m: number;
+  /** T of that plan. */
+  time_to_converge_s: number;
+  /** The same in a sentence. */
+  message: string;
 }
 
 /** What a pursuer is to do: join its leader, and stay behind it. */
@@ -712,6 +829,13 @@ export interface LinkResult {
   across_error_m: number;
 }
 
+/** A round cell, at t = 0. */
+export interface LocalDisc {
+  x_m: number;
+  y_m: number;
+  radius_m: number;
+}
+
 /** The aircraft to be joined, at t = 0, with what it has declared it will do. */
 export interface LocalLeader {
   x_m: number;
@@ -719,6 +843,7 @@ export interface LocalLeader {
   heading_deg: number;
   tas_mps: number;
   intent?: IntentPiece[];
+  altitude_m?: number | null;
 }
 
 /** The aircraft that is guided, at t = 0. */
@@ -728,6 +853,19 @@ export interface LocalPursuer {
   heading_deg: number;
   tas_mps: number;
   max_bank_deg: number;
+  altitude_m?: number | null;
+}
+
+/** Another aircraft, at t = 0, with what it has declared it will do: to be kept clear of. */
+export interface LocalTraffic {
+  ident: string;
+  x_m: number;
+  y_m: number;
+  heading_deg: number;
+  tas_mps: number;
+  altitude_m?: number | null;
+  intent?: IntentPiece[];
+  min_separation_m?: number | null;
 }
 
 /** A loss of separation: from when the separation fell below d_min until it was d_min again. */
@@ -773,6 +911,10 @@ export interface NoPlanCard {
   message: string;
   /** No plan that keeps d_min is faster than this [s]; 0 where nothing is known. */
   lower_bound_s: number;
+  /** With the reason `traffic`: who is in the way, when, and how near. Else left out. */
+  conflict?: ConflictCard;
+  /** With the reason `traffic`: what would help, each of it tried. Left out if there is none. */
+  remedies?: (SlotDistanceRemedy | LaterRemedy | LevelRemedy | SideRemedy)[];
 }
 
 /** A plan that no aircraft flies, and why. */
@@ -832,6 +974,22 @@ export interface OtherPathCard {
   segments: PathSegment[];
   /** Why it is not proposed, e.g. `38 s slower`. */
   why: string;
+}
+
+/** Least separation from another aircraft or a cell, until two minutes after joining. */
+export interface OtherSeparationCard {
+  /** Of the aircraft or the cell. */
+  ident: string;
+  /** The least distance to the aircraft, or to the edge of the cell: negative inside. */
+  least_m: number;
+  /** When it is so. */
+  at_s: number;
+  /** It is proved never to be less. */
+  proved_above_m: number;
+  /** What is to be kept; 0 of a cell. */
+  min_separation_m: number;
+  /** When height keeps it. Left out if it never does. */
+  vertical?: VerticalCard[];
 }
 
 /** A place and a heading along a path, over the ground. */
@@ -994,6 +1152,14 @@ export interface PlayCommand {
   command: "play";
 }
 
+/** A convex weather cell at all levels, to be kept out of. */
+export interface PolygonCell {
+  ident: string;
+  polygon: (number[] | GeodeticCorner)[];
+  velocity_mps?: number[];
+  growth_mps?: number;
+}
+
 /** The pursuer will join at another time than was last said, on the path that it flies. */
 export interface PromiseChanged {
   kind: "promise_changed";
@@ -1011,6 +1177,7 @@ export interface PromiseChanged {
 export interface PursuerHeadingCommand {
   command: "pursuer_heading";
   heading_deg: number;
+  ident?: string;
 }
 
 /** The flight at one instant. */
@@ -1056,6 +1223,10 @@ export interface Separation {
   at_s: number;
   /** They are proved never to be closer. */
   proved_above_m: number;
+  /** When height keeps it. Left out if it never does. */
+  vertical?: VerticalCard[];
+  /** The same of other traffic and cells, least margin first. Left out if there are none. */
+  others?: OtherSeparationCard[];
 }
 
 /** The separation fell below d_min: once for each time it does. */
@@ -1086,12 +1257,23 @@ export interface SeparationLost {
 export interface SetEngagementCommand {
   command: "set_engagement";
   engagement: Engagement;
+  ident?: string;
 }
 
 /** Change how fast simulated time runs. */
 export interface SetRateCommand {
   command: "set_rate";
   rate: number;
+}
+
+/** The other way round there is a plan. */
+export interface SideRemedy {
+  /** The other way round. */
+  kind: "side";
+  /** T of that plan. */
+  time_to_converge_s: number;
+  /** The same in a sentence. */
+  message: string;
 }
 
 /** Everything a plan depends on, at one instant. */
@@ -1101,6 +1283,8 @@ export interface SituationBody {
   slot_distance_m: number;
   min_separation_m: number;
   wind?: WindBody;
+  traffic?: (LocalTraffic | GeodeticTraffic)[];
+  cells?: (DiscCell | PolygonCell)[];
 }
 
 /** Start a flight from a situation of your own. */
@@ -1113,6 +1297,18 @@ export interface SituationFlightRequest {
   spacing_time_s?: number | null;
   situation: FlownSituationBody;
   flown_intent?: IntentPiece[] | null;
+}
+
+/** With another D there is a plan. */
+export interface SlotDistanceRemedy {
+  /** Another D. */
+  kind: "slot_distance";
+  /** D. */
+  slot_distance_m: number;
+  /** T of that plan. */
+  time_to_converge_s: number;
+  /** The same in a sentence. */
+  message: string;
 }
 
 /** A piece of intent: keep the heading. */
@@ -1215,10 +1411,22 @@ export interface UnsafeAlternativeCard {
   least_separation_m: number;
   /** When it is closest. */
   at_s: number;
+  /** To whom: other traffic, or a cell. Left out for the leader. */
+  ident?: string;
   /** Why it is not flown, e.g. `comes within 4.22 NM at 212 s`. */
   why: string;
   /** It loses the separation. */
   rejected: "separation";
+}
+
+/** A time in which height keeps two aircraft apart: their separation does not count then. */
+export interface VerticalCard {
+  /** Since when. */
+  from_s: number;
+  /** Until when. */
+  to_s: number;
+  /** The least height between the two in between, to be sure of. */
+  least_m: number;
 }
 
 /** Uniform wind as reports give it. */
