@@ -1,6 +1,7 @@
 """The figures of a flight, counted as it is flown, and losses of separation as they begin."""
 
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 
@@ -82,7 +83,7 @@ def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
     one.metrics = metrics
     limit = one.link.min_separation
     if least >= limit:
-        one.lost = one.lost and fleet.apart(one.pursuer, one.ahead) < limit
+        one.lost = one.lost and fleet.counted_apart(one.pursuer, one.ahead) < limit
         return []
     said = [] if one.lost else [_loss(one, fleet, t)]
     for loss in said:
@@ -117,6 +118,7 @@ def _announced(metrics: FlightMetrics) -> tuple[Second, ...]:
 def _first_below(fleet: Fleet, one: Pursuit, limit: Metre) -> tuple[int, Metre]:
     """At which step of the last second the separation is below d_min, and what it is."""
     apart = np.hypot(*(fleet.trace[one.pursuer, :, :2] - fleet.trace[one.ahead, :, :2]).T)
+    apart = np.where(fleet.by_height(one.pursuer, one.ahead), inf, apart)
     below = np.flatnonzero(apart < limit)
     k = int(below[0]) if len(below) else int(np.argmin(apart))
     return min(k, fleet.steps - 1), float(apart[k])

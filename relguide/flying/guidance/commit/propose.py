@@ -1,6 +1,7 @@
 """propose(belief, …) → Proposal: a path to fly from now on, whatever was flown before."""
 
 from dataclasses import replace
+from math import inf
 
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.assignment import Assignment
@@ -45,7 +46,7 @@ def propose(
             planner's is faster by more than this [s].
     """
     lead = lead_in(belief, assignment, committed)
-    apart = lead.separation
+    apart = lead.separation if belief.counted_separation < inf else inf
     limit = assignment.buffered_separation
     limits = [limit] if apart >= limit else []
     before = lead.left if like is None or committed is not None else begun_now(like, belief)
@@ -53,7 +54,9 @@ def propose(
     closest: Metre = 0.0
     while len(limits) <= BUFFERS:
         wanted = limits[-1] if limits else assignment.min_separation
-        situation = situation_of(assignment, lead.pursuer, lead.leader, belief, wanted)
+        situation = situation_of(
+            assignment, lead.pursuer, lead.leader, belief, wanted, after=lead.seconds
+        )
         answer = ask(planner, situation)
         fell_back, refusal = fell_back or answer.fell_back, refusal or answer.refusal
         plan = answer.plan
@@ -86,7 +89,10 @@ def _propose_without_buffer(
 ) -> Proposal | NoProposal:
     """With d_min and what is uncertain, where nothing keeps the buffer as well."""
     limit = assignment.kept_separation
-    answer = ask(planner, situation_of(assignment, lead.pursuer, lead.leader, belief, limit))
+    answer = ask(
+        planner,
+        situation_of(assignment, lead.pursuer, lead.leader, belief, limit, after=lead.seconds),
+    )
     fell_back = wide.fell_back or answer.fell_back
     refusal = answer.refusal or wide.refusal
     if isinstance(answer.plan, NoPlan):
@@ -104,7 +110,7 @@ def _refuse_lost(
     later: NoPlan, belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn
 ) -> NoPlan:
     """Why no plan can begin where the lead-in ends, in figures of now."""
-    if belief.separation < assignment.min_separation:
+    if belief.counted_separation < assignment.min_separation:
         now = ask(planner, situation_now(belief, assignment)).plan
         return now if isinstance(now, NoPlan) else later
     return NoPlan(
