@@ -25,7 +25,7 @@ from pydantic_core import to_json
 
 from relguide.contract.compass import compass
 from relguide.contract.docs import field_docs
-from relguide.flying.plan_documents import ADDED
+from relguide.flying.plan_documents import ADDED, IF_ANY
 
 if TYPE_CHECKING:  # most of what can be written is never needed where plans are made
     from relguide.flying.aircraft_documents import (
@@ -108,6 +108,10 @@ class WireField:
     numbers, that of each member."""
     missing: Any = ...
     """JSON value where a recording of before has none; `...` for a field that is always there."""
+    if_any: bool = False
+    """Whether it is written only where it differs from its default."""
+    default: Any = None
+    """In Python."""
 
     @property
     def doc(self) -> str:
@@ -208,10 +212,20 @@ def _encoder(document_type: type[Any]) -> Convert:
     if (known := _ENCODERS.get(document_type)) is not None:
         return known
     every = wire_fields(document_type)
-    members = ", ".join(f"{f.wire_name!r}: encode_{f.name}(document.{f.name})" for f in every)
-    encoders = {f"encode_{f.name}": f.encode for f in every}
+    members = ", ".join(map(_written, every))
+    encoders: dict[str, Any] = {f"encode_{f.name}": f.encode for f in every}
+    encoders |= {f"default_{f.name}": f.default for f in every}
     made: Convert = eval(f"lambda document: {{{members}}}", encoders)
     return _ENCODERS.setdefault(document_type, made)
+
+
+def _written(field: WireField) -> str:
+    """Code that writes one field, as a member of the display of a dict."""
+    name = field.name
+    member = f"{field.wire_name!r}: encode_{name}(document.{name})"
+    if not field.if_any:
+        return member
+    return f"**({{{member}}} if document.{name} != default_{name} else {{}})"
 
 
 def _describe(field: Field[Any], hint: Any, owner: type[Any]) -> WireField:
@@ -229,7 +243,9 @@ def _describe(field: Field[Any], hint: Any, owner: type[Any]) -> WireField:
         owner=owner,
         encode=encode,
         decode_number=decode,
-        missing=encode(field.default) if field.metadata == ADDED else ...,
+        missing=encode(field.default) if field.metadata in (ADDED, IF_ANY) else ...,
+        if_any=field.metadata == IF_ANY,
+        default=field.default,
     )
 
 

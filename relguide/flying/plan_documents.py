@@ -13,6 +13,8 @@ Direction = Literal["left", "right"]
 Passes = Literal["behind", "ahead"]
 ADDED = {"added": True}
 """Metadata of a field that documents did not always have: without it they read as its default."""
+IF_ANY = {"added": True, "if_any": True}
+"""… and of one that is left out of JSON where it has its default: few flights have it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-5d4116c13b94";
+export const PROTOCOL = "relguide-55e6ee87945d";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -34,7 +34,8 @@ export type PlanReason =
   | "leader_elsewhere"
   | "intent_received"
   | "intent_withdrawn"
-  | "braking";
+  | "braking"
+  | "traffic";
 
 /** What is new about the leader. */
 export type LeaderChange =
@@ -57,7 +58,7 @@ export type AlertState = "none" | "advisory" | "caution" | "warning";
 export type AlertSubject = "separation" | "spacing" | "speed" | "data" | "geometry";
 
 /** Why guidance cannot do what it is to do. */
-export type UnableReason = "separation" | "speed" | "geometry" | "envelope" | "data";
+export type UnableReason = "separation" | "speed" | "geometry" | "envelope" | "data" | "traffic";
 
 /** A planner that is compared with others. */
 export type ComparedPlanner = "exact" | "network" | "regular_dp" | "printed_network";
@@ -321,8 +322,8 @@ export interface BoundarySegment {
 /**
  * A weather cell: all places no farther than `radius` from the convex hull of its corners.
  *
- * A disc has one corner, its middle; a polygon has radius 0. Given as it is at t = 0, in columns of
- * equal length; it moves over the ground, and its radius grows.
+ * A disc has one corner, its middle; a polygon has radius 0. Given as it is at t = 0, in columns
+ * of equal length; it moves over the ground, and its radius grows.
  */
 export interface CellCard {
   /** Its name in all documents of the flight. */
@@ -342,6 +343,17 @@ export interface CellCard {
   lat_deg?: number[];
   /** WGS84; there if the situation came with latitudes. */
   lon_deg?: number[];
+}
+
+/** How near a pursuer came to one other aircraft, or to the edge of a cell. */
+export interface ClosestOther {
+  ident: string;
+  /** The least; negative inside a cell. */
+  separation_m: number;
+  /** When. */
+  t_s: number;
+  /** What was to be kept; 0 for a cell. */
+  min_separation_m: number;
 }
 
 /** A contact with d = d_min, or the beginning or end of a boundary arc. */
@@ -737,6 +749,11 @@ export interface LinkResult {
   along_error_m: number;
   /** Largest distance beside the route, while it followed. */
   across_error_m: number;
+  /**
+   * Of all others the one that it came nearest to, measured by what was to be kept; none where
+   * there are no others.
+   */
+  least_other?: ClosestOther[];
 }
 
 /** The aircraft to be joined, at t = 0, with what it has declared it will do. */
@@ -767,6 +784,8 @@ export interface Loss {
   cause: string;
   /** When the first alert or `Unable` that came before it was given; empty if there was none. */
   announced_s: number[];
+  /** Ident of the aircraft or cell that it came too close to; empty for the leader. */
+  other?: string;
 }
 
 /** A word of which no path reaches the slot, or none within 12 hours. */
