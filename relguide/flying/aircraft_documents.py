@@ -13,7 +13,7 @@ from relguide.flying.engagement import Engagement as Engagement
 from relguide.flying.guidance.announcements import AlertLevel as AlertLevel
 from relguide.flying.guidance.announcements import AlertState as AlertState
 from relguide.flying.modes import Mode as Mode
-from relguide.flying.plan_documents import IF_ANY, PathPoint
+from relguide.flying.plan_documents import LEFT_OUT, PathPoint
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 Spacing = Literal["distance", "time"]
@@ -165,7 +165,7 @@ class Loss:
     """Why, in a sentence."""
     announced: tuple[Second, ...]
     """When the first alert or `Unable` that came before it was given; empty if there was none."""
-    other: str = field(default="", metadata=IF_ANY)
+    other: str = field(default="", metadata=LEFT_OUT)
     """Ident of the aircraft or cell that it came too close to; empty for the leader."""
 
 
@@ -217,7 +217,7 @@ class LinkResult:
     """Largest distance along the route from where it should be, while it followed."""
     across_error: Metre = 0.0
     """Largest distance beside the route, while it followed."""
-    least_other: tuple[ClosestOther, ...] = field(default=(), metadata=IF_ANY)
+    least_other: tuple[ClosestOther, ...] = field(default=(), metadata=LEFT_OUT)
     """Of all others the one that it came nearest to, measured by what was to be kept; none where
     there are no others."""
 

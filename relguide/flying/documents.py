@@ -29,7 +29,7 @@ from relguide.flying.guidance.announcements import UnableReason as UnableReason
 from relguide.flying.modes import Mode as Mode
 from relguide.flying.plan_documents import (
     ADDED,
-    IF_ANY,
+    LEFT_OUT,
     NoPlanCard,
     OtherPathCard,
     PathPoint,
@@ -62,7 +62,7 @@ class FlightStarted:
     step: Second
     """Integration step [s]."""
     seed: int
-    cells: tuple[CellCard, ...] = field(default=(), metadata=IF_ANY)
+    cells: tuple[CellCard, ...] = field(default=(), metadata=LEFT_OUT)
     """Weather to be kept out of."""
     kind: Literal["flight_started"] = "flight_started"
 

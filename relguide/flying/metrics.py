@@ -95,7 +95,7 @@ def count_loss(metrics: FlightMetrics, least: Metre, other: str = "") -> FlightM
 
 def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
     """Count the second flown from t on; whether separation was lost in it."""
-    least = fleet.least_apart(one.pursuer, one.leader)
+    least = fleet.least_apart(one.pursuer, one.ahead)
     row = fleet.tallies[one.pursuer]
     metrics = one.metrics._replace(least_separation=min(least, one.metrics.least_separation))
     if not metrics.joined:
@@ -113,10 +113,10 @@ def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
     said = list[SeparationLost]()
     limit = one.link.min_separation
     if least >= limit:
-        one.lost = one.lost and fleet.apart(one.pursuer, one.leader) < limit
+        one.lost = one.lost and fleet.apart(one.pursuer, one.ahead) < limit
     else:
         if not one.lost:
-            apart = np.hypot(*(fleet.trace[one.pursuer, :, :2] - fleet.trace[one.leader, :, :2]).T)
+            apart = np.hypot(*(fleet.trace[one.pursuer, :, :2] - fleet.trace[one.ahead, :, :2]).T)
             said.append(_loss(one, fleet, t, one.names.leader, apart, limit, _cause(one, t)))
             one.metrics = count_event(one.metrics, said[0], one.names.leader)
         one.metrics = count_loss(one.metrics, least)
@@ -153,7 +153,7 @@ def _others_apart(one: Pursuit, fleet: Fleet, t: Second) -> Iterator[tuple[str, 
     """Of each other its ident, its minimum [m] and how far it was at each step [m]."""
     own = fleet.trace[one.pursuer, :, :2]
     for j, aircraft in enumerate(fleet.world.aircraft):
-        if j not in (one.pursuer, one.leader):
+        if j not in (one.pursuer, one.ahead):
             limit = kept_from(aircraft, one.link)
             yield aircraft.ident, limit, np.hypot(*(own - fleet.trace[j, :, :2]).T)
     times = t + fleet.step * np.arange(float(len(own)))

@@ -34,6 +34,7 @@ const PlannersPanel = late(
   async () => (await import("./panels/planners")).PlannersPanel,
   "The planners are on their way.",
 );
+const TrafficPanel = late(async () => (await import("./panels/traffic")).Traffic, "");
 const Scene = late(async () => (await import("./scene/scene")).Scene, "The scene is on its way.");
 const Help = late(async () => (await import("./panels/help")).Help, "");
 const Charts = late(
@@ -112,11 +113,13 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
               <div class="column numbers">
                 {!small.value && <Engage session={session} actions={actions} />}
                 <PlanNumbers session={session} />
+                {narrow.value && <About session={session} />}
                 {narrow.value && <Others session={session} />}
               </div>
               {!narrow.value && (
                 <div class="column lists">
                   <Aircraft session={session} actions={actions} />
+                  <About session={session} />
                   <Others session={session} />
                 </div>
               )}
@@ -131,6 +134,13 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
       <Announcer session={session} />
     </>
   );
+}
+
+/** Traffic and weather, where the flight has any. */
+function About({ session }: { session: Session }) {
+  const started = session.flight.read.value.started;
+  if (started === null || started.others.length + started.cells.length === 0) return null;
+  return <TrafficPanel session={session} />;
 }
 
 /** The other paths of the planner that flies, or what other planners would fly. */

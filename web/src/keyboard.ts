@@ -40,6 +40,7 @@ const KEYS: Record<string, (session: Session, actions: Actions) => Act> = {
   c: (_, actions) => () => actions.engage("armed"),
   e: (_, actions) => () => actions.engage("engaged"),
   x: (_, actions) => () => actions.engage("off"),
+  t: (session) => (isMap(session) ? null : () => chooseNext(session)),
   g: ({ chartsOpen }) => set(chartsOpen, !chartsOpen.value),
   m: ({ sceneMaximised }) => set(sceneMaximised, !sceneMaximised.value),
   "?": ({ helpOpen }) => set(helpOpen, !helpOpen.value),
@@ -52,6 +53,13 @@ const KEYS: Record<string, (session: Session, actions: Actions) => Act> = {
     };
   },
 };
+
+/** Shows the numbers of the next of the other aircraft, the most urgent first, and after the last of none. */
+function chooseNext({ shown }: Session): void {
+  const idents = shown.picture.value.traffic.map(({ ident }) => ident).reverse();
+  const at = idents.indexOf(shown.chosen.value ?? "");
+  shown.chosen.value = idents[at + 1] ?? null;
+}
 
 function isMap({ ndMode }: Session): boolean {
   return ndMode.value === "PLAN";

@@ -65,6 +65,18 @@ export const ELEMENTS: readonly Element[] = [
     "half a symbol in its direction, with bearing and distance",
     "key-leader-symbol",
   ),
+  element(
+    "traffic",
+    "Other aircraft",
+    "a slim arrowhead along its track, filled when near; on an amber disc or a red square when an alert stands on it; its level over own ship in hundreds of feet, an arrow if it climbs or descends by 500 ft a minute; click it, or press T, for its numbers",
+    "key-traffic",
+  ),
+  element(
+    "traffic-edge",
+    "Other aircraft off the map",
+    "half a disc or square in its direction, while an alert stands on it",
+    "key-traffic",
+  ),
   element("ownship", "Own ship", "yellow, its nose up", "key-pursuer"),
   element("bug", "Selected heading", "hollow, cyan: the heading that the crew selected", "key-bug"),
   element(
@@ -171,6 +183,12 @@ export const ELEMENTS: readonly Element[] = [
     "No intent",
     "dotted: the leader has declared nothing, straight ahead is assumed for three minutes",
     "key-dotted",
+  ),
+  element(
+    "weather",
+    "Weather cell",
+    "hatched, to be kept out of; dashed: where it will be in five minutes",
+    "key-weather",
   ),
   element(
     "area",

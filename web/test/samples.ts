@@ -55,6 +55,7 @@ export function pairAt(t: number, changes: Partial<PairSample> = {}): PairSample
       tas_mps: 200,
       ground_speed_mps: 200,
     }),
+    others: [],
     mode: "converge",
     reference: { kind: "hold_heading", heading_deg: 90 },
     commanded_tas_mps: 240,
@@ -76,11 +77,11 @@ export function pairAt(t: number, changes: Partial<PairSample> = {}): PairSample
 }
 
 export function sample(t: number, changes: Partial<PairSample> = {}): Sample {
-  const { t_s, pursuer, leader, ...guidance } = pairAt(t, changes);
+  const { t_s, pursuer, leader, others, ...guidance } = pairAt(t, changes);
   return {
     kind: "sample",
     t_s,
-    aircraft: [pursuer, leader],
+    aircraft: [pursuer, leader, ...others],
     guidance: [{ ident: pursuer.ident, leader: leader.ident, ...guidance }],
   };
 }

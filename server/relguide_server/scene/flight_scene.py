@@ -60,6 +60,7 @@ from relguide_server.scene.paint import lines
 from relguide_server.scene.shapes import KM
 from relguide_server.scene.sky import draw_sky
 from relguide_server.scene.slot_gate import SlotGate, is_silent
+from relguide_server.scene.surroundings import Surroundings
 
 CELL = 5.0 * NM / KM
 """Cell of the ground grid [scene units]."""
@@ -111,6 +112,7 @@ class FlightScene:
         self._pair: _Pair | None = None
         self._cast: _Cast | None = None
         self._figures: dict[str, AircraftFigure] = {}
+        self._surroundings: Surroundings | None = None
         self._route: LeaderRoute | None = None
         self._is_routed = False
         self._ahead: Array = np.empty((0, 3))
@@ -131,6 +133,7 @@ class FlightScene:
             if isinstance(document, FlightStarted):
                 self._cast = _cast(document)
                 self._radius = self._cast.link.min_separation / KM
+                self._surroundings = Surroundings(self._scene, self._cast.link, document.cells)
         if self._cast is None:
             return
         # Paths are drawn at the heights of those who fly them: a sample behind may bring these.
@@ -170,6 +173,7 @@ class FlightScene:
                     self._drawn_from = -inf  # the next sample says when it joins
             case Sample():
                 self._sample(document.t, _pair(document, link), cast)
+                self._draw_others(document, link)
             case LeaderChanged() | ModeChanged() | SeparationLost() | FlightEnded():
                 pass  # what they change is seen in the samples
             case PlanProposed():
@@ -179,10 +183,19 @@ class FlightScene:
             case EngagementChanged():
                 if document.ident == link.pursuer:
                     self._change_engagement(document)
-            case PlanRefused() | PromiseChanged() | FanChanged() | Alert() | Unable():
+            case Alert():
+                if document.ident == link.pursuer and self._surroundings is not None:
+                    self._surroundings.warn(document)
+            case PlanRefused() | PromiseChanged() | FanChanged() | Unable():
                 pass  # for the navigation display
             case _:
                 assert_never(document)
+
+    def _draw_others(self, sample: Sample, link: LinkCard) -> None:
+        if self._surroundings is None:
+            return
+        separation = find_by_ident(sample.guidance, link.pursuer).separation
+        self._surroundings.draw(sample.t, sample.aircraft, enlargement(separation))
 
     def glide(self, ahead: Second) -> None:
         """Carry the picture on from the newest sample: both turn on as they did then."""
@@ -193,6 +206,8 @@ class FlightScene:
         moved = _Pair(carry(pursuer, ahead), carry(leader, ahead), replace(guidance, slot=slot))
         with self._server.atomic():
             self._place(moved)
+            if self._surroundings is not None:
+                self._surroundings.move(ahead)
 
     def _start(self, started: FlightStarted) -> None:
         wind = started.wind
@@ -301,7 +316,9 @@ class FlightScene:
         self._figures["pursuer"].show(paint.PURSUER, enlarged)
         self._figures["leader"].show(leader_colour(guidance, cast.link.min_separation), enlarged)
         self._figures["leader"].hide(guidance.leader_age > GONE)
-        self._minimum.draw(guidance, cast.link.min_separation)
+        is_about_others = self._surroundings is not None and self._surroundings.are_all_alerts
+        to_leader = replace(guidance, alert="none") if is_about_others else guidance
+        self._minimum.draw(to_leader, cast.link.min_separation)
         self._length = LENGTH / KM * enlarged
         self._gate.draw(guidance, self._height, self._length)
         self._ahead = self._path_ahead(t, guidance)

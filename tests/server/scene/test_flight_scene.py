@@ -12,8 +12,12 @@ from relguide_server.scene.flight_scene import FlightScene
 from relguide_server.scene.shapes import ALTITUDE_SCALE
 from viser import ViserServer
 
+from relguide.flying.aircraft_documents import CellCard
 from relguide.flying.documents import (
+    Alert,
     Document,
+    FlightEnded,
+    FlightStarted,
     ForecastChanged,
     ModeChanged,
     PlanUnavailable,
@@ -301,3 +305,54 @@ def test_what_is_kept_beside_the_minimum_is_a_circle_of_its_own(
     assert np.hypot(margin[..., 0], margin[..., 1]).max() == pytest.approx(minimum + 0.9)
     scene.draw([sample])
     assert "/world/leader/margin" not in nodes(viser_server)
+
+
+def among_others(documents: list[Document]) -> list[Document]:
+    """The same flight with an aircraft 3,000 m below the leader, and two cells."""
+    disc = CellCard(ident="CB1", x=(30e3,), y=(0.0,), radius=8e3, east=10.0, north=0.0, growth=20.0)
+    square = CellCard(
+        ident="CB2", x=(0.0, 9e3, 9e3, 0.0), y=(0.0, 0.0, 9e3, 9e3), radius=0.0, east=0.0,
+        north=0.0, growth=0.0,
+    )  # fmt: skip
+    met: list[Document] = []
+    for document in documents:
+        if isinstance(document, FlightStarted):
+            met.append(replace(document, cells=(disc, square)))
+        elif isinstance(document, Sample):
+            leader = document.aircraft[1]
+            other = replace(leader, ident="BAW12", y=leader.y + 9e3, altitude=leader.altitude - 3e3)
+            met.append(replace(document, aircraft=(*document.aircraft, other)))
+        else:
+            met.append(document)
+    return met
+
+
+def test_others_are_drawn_at_their_levels_and_cells_as_columns_that_move_and_grow(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    FlightScene(viser_server).draw(among_others(documents))
+    known = nodes(viser_server)
+    leader, other = (known[f"/world/{name}"].position for name in ("leader", "others/0"))
+    assert leader[2] - other[2] == pytest.approx(3.0 * ALTITUDE_SCALE)
+    assert other[1] - leader[1] == pytest.approx(9.0)
+    assert known["/world/cells/0"].position[0] == pytest.approx(10.0 * 20.0 / 1000.0)
+    walls = known["/world/cells/0/walls"].vertices
+    assert np.hypot(walls[:, 0] - 30.0, walls[:, 1]) == pytest.approx(8.4, abs=0.1)
+    assert len(known["/world/cells/1/walls"].vertices) == 8
+
+
+def test_an_alert_on_another_aircraft_colours_that_one_alone(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    flight = among_others(documents)
+    *before, last = (d for d in flight if not isinstance(d, FlightEnded))
+    assert isinstance(last, Sample)
+    warned = replace(last, guidance=(replace(last.guidance[0], alert="caution"),))
+    alert = next(d for d in rare_documents(last.t, OWN, "BAW12") if isinstance(d, Alert))
+    scene.draw([*before, replace(alert, other="BAW12", level="caution", cleared=False), warned])
+    known = nodes(viser_server)
+    assert known["/world/others/0/body/mesh"].color == paint.CAUTION
+    assert known["/world/leader/min_separation"].color == paint.LEADER
+    scene.draw([replace(alert, other="BAW12", level="caution", cleared=True), last])
+    assert known["/world/others/0/body/mesh"].color == paint.TRAFFIC

@@ -87,6 +87,8 @@ function cardOf(situation: Situation): PairCard {
     wind: situation.wind,
     step_s: 0,
     seed: 0,
+    others: [],
+    cells: [],
   };
 }
 
@@ -101,6 +103,7 @@ function sampleOf(situation: Situation, slot: PathPoint, opens: number): PairSam
     t_s: 0,
     pursuer: own,
     leader: other,
+    others: [],
     mode: "heading",
     reference: { kind: "hold_heading", heading_deg: pursuer.heading_deg },
     commanded_tas_mps: pursuer.tas_mps,

@@ -24,14 +24,17 @@ import { Plane } from "./plane";
 import { proposalLabel } from "./proposal";
 import { LETTERS, letterPoint, ringLabelPoints } from "./rings";
 import { ink } from "./style";
+import { offScaleTrafficLabels, trafficId, trafficLabels } from "./traffic";
 import { turnLabels } from "./turns";
 import { type Box, onMap, type Point, placeAt, project, round, SIZE } from "./view";
+import { weatherId, weatherLabels } from "./weather";
 
 /** All labels of the map, the most important first. */
 function labelsOf(props: LayerProps): Label[] {
   return [
     leaderTag(props),
     offScaleTag(props),
+    ...offScaleTrafficLabels(props),
     captureLabel(props),
     proposalLabel(props),
     closestLabel(props),
@@ -40,6 +43,8 @@ function labelsOf(props: LayerProps): Label[] {
     ...turnLabels(props),
     ...intentLabels(props),
     ...minuteLabels(props),
+    ...trafficLabels(props),
+    ...weatherLabels(props),
     ...fanLabels(props),
   ].filter((label) => label !== null);
 }
@@ -70,6 +75,9 @@ const NAMED = {
   leg: "intent",
   minute: "minutes",
   fan: "fan",
+  "traffic at the edge": "traffic-edge",
+  traffic: "traffic",
+  weather: "weather",
   region: "area",
   T: "turns",
 } as const;
@@ -94,7 +102,22 @@ const NO_MORE: ReadonlySignal<More> = signal({ labels: [], points: [] });
 
 /** The map's labels, clear of each other. They stand upright: outside the turning map. */
 export function Labels(props: LayerProps & { more?: ReadonlySignal<More> }) {
-  return <LabelTexts ids={IDS} {...useLabels(props, props.more ?? NO_MORE)} />;
+  const others = useOthers(props);
+  const ids = [
+    ...IDS,
+    ...others.cells.map(weatherId),
+    ...others.traffic.flatMap((ident) => [trafficId(ident), trafficId(ident, true)]),
+  ];
+  return <LabelTexts ids={ids} {...useLabels(props, props.more ?? NO_MORE)} />;
+}
+
+/** The idents of all that is about the two: they stay the same for a flight. */
+function useOthers({ shown }: LayerProps) {
+  const key = usePart(shown, ({ traffic, cells }) =>
+    JSON.stringify([traffic.map(({ ident }) => ident).sort(), cells.map(({ ident }) => ident)]),
+  );
+  const [traffic, cells] = JSON.parse(key.value) as [string[], string[]];
+  return { traffic, cells };
 }
 
 /** Those of the leader and of the edge move with them, all others with the ground. */
@@ -107,8 +130,24 @@ const LABEL_CARRIERS = [
 /** The same in flight, carried on between two pictures with what they belong to. */
 export function CarriedLabels({ shown, view }: LayerProps) {
   const placed = useLabels({ shown, view }, NO_MORE);
+  const others = useOthers({ shown, view });
   return (
     <>
+      {others.cells.length > 0 && (
+        <Plane shown={shown} view={view} by="map">
+          <LabelTexts ids={others.cells.map(weatherId)} {...placed} />
+        </Plane>
+      )}
+      {others.traffic.length > 0 && (
+        <Plane shown={shown} view={view} by="tape">
+          <LabelTexts ids={others.traffic.map((ident) => trafficId(ident, true))} {...placed} />
+        </Plane>
+      )}
+      {others.traffic.map((ident) => (
+        <Plane key={ident} shown={shown} view={view} by={`other ${ident}`}>
+          <LabelTexts ids={[trafficId(ident)]} {...placed} />
+        </Plane>
+      ))}
       {LABEL_CARRIERS.map(({ by, ids }) => (
         <Plane key={by} shown={shown} view={view} by={by}>
           <LabelTexts ids={ids} {...placed} />
@@ -264,7 +303,7 @@ function choose(
 
 /** The symbols that no label may cover. */
 function symbols({ shown, view }: LayerProps): Box[] {
-  const [{ now, style, closest, closestAtJoin, join }, pose] = [
+  const [{ now, style, closest, closestAtJoin, join, traffic }, pose] = [
     shown.picture.value,
     view.pose.value,
   ];
@@ -275,6 +314,7 @@ function symbols({ shown, view }: LayerProps): Box[] {
     boxes.push(square(project(layout, pose, now.slot), 22));
   if (leaderOnMap({ shown, view }) !== null)
     boxes.push(square(project(layout, pose, now.leader), 24));
+  boxes.push(...traffic.map(({ aircraft }) => square(project(layout, pose, aircraft), 22)));
   const pair = closest ?? closestAtJoin;
   const points = [pair?.pursuer, pair?.leader, join].filter((point) => point != null);
   boxes.push(...points.map((point) => square(project(layout, pose, point), 11)));

@@ -1,4 +1,5 @@
 import { useComputed } from "@preact/signals";
+import { TREND_FROM } from "../store/traffic";
 import { FT } from "../units";
 import type { Label } from "./labels";
 import { type LayerProps, usePart } from "./layer";
@@ -58,7 +59,7 @@ export function leaderOnMap({ shown, view }: LayerProps) {
 
 /** Who the leader is, how much higher or lower [hundreds of feet], its ground speed [kt], its data's age. */
 export function leaderTag({ shown, view }: LayerProps): Label | null {
-  const [{ now, leaderAge, ageSeconds, ident, designated }, pose] = [
+  const [{ now, leaderAge, ageSeconds, ident, designated, leaderClimb }, pose] = [
     shown.picture.value,
     view.pose.value,
   ];
@@ -66,9 +67,11 @@ export function leaderTag({ shown, view }: LayerProps): Label | null {
   if (leader === null || now === null || pose === null) return null;
   const at = project(view.layout.value, pose, leader);
   const height = relativeAltitude(leader.altitude_m - now.pursuer.altitude_m);
+  const level = `${height}${trendSign(leaderClimb)}`;
   const { colour } = leaderAge;
   const lines = [{ text: ident, colour }];
-  if (designated) lines.push({ text: `${height} ${shown.numbers.value.leaderSpeed}`, colour });
+  if (designated) lines.push({ text: `${level} ${shown.numbers.value.leaderSpeed}`, colour });
+  else if (level !== "+00") lines.push({ text: level, colour });
   if (leaderAge.showsAge) lines.push({ text: `${ageSeconds} S`, colour });
   return {
     id: "leader",
@@ -79,6 +82,11 @@ export function leaderTag({ shown, view }: LayerProps): Label | null {
     size: 20,
     optional: false,
   };
+}
+
+/** "↑" or "↓" from 500 ft a minute on; "" for level. `climb` [m/s] */
+export function trendSign(climb: number): "" | "↑" | "↓" {
+  return Math.abs(climb) < TREND_FROM - 0.01 ? "" : climb > 0 ? "↑" : "↓";
 }
 
 /** Height over the own ship in hundreds of feet with its sign, e.g. "+00", "−12". `height` [m] */

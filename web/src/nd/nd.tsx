@@ -37,10 +37,12 @@ import { Spacing } from "./spacing";
 import { HeadingTape, LubberLine } from "./tape";
 import { TimingScale } from "./timing";
 import { TrackDiamond, TrackLine } from "./track";
+import { OffScaleTraffic, TrafficSymbol, TrafficSymbols } from "./traffic";
 import { TrendVector } from "./trend";
 import { Tube } from "./tube";
 import { TurnPoints } from "./turns";
 import { type Carrier, createView, type DisplayMode, SIZE } from "./view";
+import { Weather } from "./weather";
 
 /** What lies under the map: no path is ever covered by it. */
 export const GROUND_LAYERS = [RangeRings, TrackLine, TrendVector] as const;
@@ -52,7 +54,7 @@ interface Sheet {
 
 /** The world, bottom to top, by what each part of it moves with. */
 const MAP_SHEETS: readonly Sheet[] = [
-  { by: "map", layers: [OtherFlight, LeaderIntent, LeaderHistory, Fan] },
+  { by: "map", layers: [Weather, OtherFlight, LeaderIntent, LeaderHistory, Fan] },
   { by: "leader", layers: [SeparationCircle, MarginCircle] },
   {
     by: "map",
@@ -70,14 +72,18 @@ const MAP_SHEETS: readonly Sheet[] = [
   },
   { by: "slot", layers: [Slot] },
   { by: "map", layers: [CapturePoint, ClosestApproach] },
-  { by: "leader", layers: [Leader] },
 ];
-export const MAP_LAYERS = MAP_SHEETS.flatMap(({ layers }) => layers);
+const LEADER_SHEET: Sheet = { by: "leader", layers: [Leader] };
+export const MAP_LAYERS = [
+  ...MAP_SHEETS.flatMap(({ layers }) => layers),
+  TrafficSymbols,
+  ...LEADER_SHEET.layers,
+];
 
 /** What stands on the glass over the map, bottom to top: under the labels, and over them. */
 const UNDER_LABELS: readonly Sheet[] = [
   { by: "glass", layers: [OwnShip] },
-  { by: "tape", layers: [OffScaleLeader, HeadingTape, CommandedHeading] },
+  { by: "tape", layers: [OffScaleLeader, OffScaleTraffic, HeadingTape, CommandedHeading] },
   { by: "glass", layers: [CommandedTurn, LubberLine, TrackDiamond] },
 ];
 const OVER_LABELS: Sheet = {
@@ -121,13 +127,15 @@ export function NavigationDisplay({ shown, mode, range, designate }: Props) {
   useEffect(() => {
     const click = (event: MouseEvent) => {
       const target = event.target;
-      if (target instanceof Element && target.closest(".nd-leader, .nd-offscale") !== null)
-        designate?.();
+      if (!(target instanceof Element)) return;
+      const ident = target.closest("[data-ident]")?.getAttribute("data-ident");
+      if (ident != null) choose(shown, ident);
+      else if (target.closest(".nd-leader, .nd-offscale") !== null) designate?.();
     };
     const { current } = glass;
     current?.addEventListener("click", click);
     return () => current?.removeEventListener("click", click);
-  }, [designate]);
+  }, [designate, shown]);
   const drawn = { shown, view };
   return (
     <div ref={glass} class="nd nd-display" role="img" aria-label={label}>
@@ -140,6 +148,11 @@ export function NavigationDisplay({ shown, mode, range, designate }: Props) {
       <Layers {...drawn} {...OVER_LABELS} />
     </div>
   );
+}
+
+/** Shows the numbers of another aircraft, or of none if they are shown already. */
+export function choose({ chosen }: Shown, ident: string): void {
+  chosen.value = chosen.value === ident ? null : ident;
 }
 
 function Layers({ shown, view, by, layers }: LayerProps & Sheet) {
@@ -155,21 +168,41 @@ function Layers({ shown, view, by, layers }: LayerProps & Sheet) {
 /** The world, cut to the tape. */
 function WorldMap({ shown, view }: LayerProps) {
   const isShown = usePart(shown, ({ now }) => now !== null);
+  const idents = useComputed(() =>
+    shown.picture.value.traffic.map(({ ident }) => ident).join("\n"),
+  );
   const { centre, tape } = view.layout.value;
   if (!isShown.value) return null;
   const part = (length: number) => `${(100 * length) / SIZE}%`;
   const cut = `circle(${part(tape)} at ${part(centre.x)} ${part(centre.y)})`;
   return (
     <div class="nd-map" style={{ clipPath: cut }}>
-      {MAP_SHEETS.map(({ by, layers }, i) => (
-        <Plane key={i} shown={shown} view={view} by={by}>
-          <g class="nd-world" transform={view.mapTransform}>
-            {layers.map((Layer) => (
-              <Layer key={Layer.name} shown={shown} view={view} />
-            ))}
-          </g>
-        </Plane>
+      {MAP_SHEETS.map((sheet, i) => (
+        <World key={i} shown={shown} view={view} {...sheet} />
       ))}
+      {idents.value
+        .split("\n")
+        .filter(Boolean)
+        .map((ident) => (
+          <Plane key={ident} shown={shown} view={view} by={`other ${ident}`}>
+            <g class="nd-world" transform={view.mapTransform}>
+              <TrafficSymbol shown={shown} view={view} ident={ident} />
+            </g>
+          </Plane>
+        ))}
+      <World shown={shown} view={view} {...LEADER_SHEET} />
     </div>
+  );
+}
+
+function World({ shown, view, by, layers }: LayerProps & Sheet) {
+  return (
+    <Plane shown={shown} view={view} by={by}>
+      <g class="nd-world" transform={view.mapTransform}>
+        {layers.map((Layer) => (
+          <Layer key={Layer.name} shown={shown} view={view} />
+        ))}
+      </g>
+    </Plane>
   );
 }

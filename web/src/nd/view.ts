@@ -164,8 +164,8 @@ export function mapTransform(layout: Layout, pose: Pose): string {
   );
 }
 
-/** What a thing on the glass moves with: nothing, the tape, the ground, the leader, the slot. */
-export type Carrier = "glass" | "tape" | "map" | "leader" | "slot";
+/** What a thing on the glass moves with: nothing, the tape, the ground, the leader, the slot, or another aircraft. */
+export type Carrier = "glass" | "tape" | "map" | "leader" | "slot" | `other ${string}`;
 
 /**
  * How a drawn picture is carried on to where all has moved since, as a CSS transform round the own ship;
@@ -181,9 +181,17 @@ export function carry(layout: Layout, heading: number, moved: Moved, by: Carrier
 }
 
 /** How far something has moved, seen from own ship. World: x east, y north [m]. */
-function carriedBy({ own, leader, slot }: Moved, by: Carrier): Point {
+function carriedBy({ own, leader, slot, others }: Moved, by: Carrier): Point {
   if (by === "glass" || by === "tape") return { x: 0, y: 0 };
-  const thing = by === "map" ? { x: 0, y: 0 } : by === "leader" ? leader : slot;
+  const still = { x: 0, y: 0 };
+  const thing =
+    by === "map"
+      ? still
+      : by === "leader"
+        ? leader
+        : by === "slot"
+          ? slot
+          : (others.get(by.slice("other ".length)) ?? still);
   return { x: thing.x - own.x, y: thing.y - own.y };
 }
 

@@ -2,6 +2,7 @@
 
 import { useSignal } from "@preact/signals";
 import { Dial } from "../dial";
+import { trendSign } from "../nd/leader";
 import { AlarmLine, Panel } from "../parts";
 import type { Actions, Session } from "../session";
 import { referenceText } from "../store/reading";
@@ -22,6 +23,7 @@ export function Aircraft(props: { session: Session; actions: Actions }) {
   const heading = useSignal<number | null>(null);
   const numbers = props.session.shown.numbers.value;
   const { sample, leader, commandedSpeed } = numbers;
+  const { climbs } = props.session.flight.read.value;
   const isGuided = sample?.engagement === "engaged";
   const started = props.session.flight.read.value.started;
   const idents = [started?.pursuer.ident ?? "Own", started?.leader.ident ?? "Leader"] as const;
@@ -55,8 +57,16 @@ export function Aircraft(props: { session: Session; actions: Actions }) {
                 {name}
                 {unit !== "" && <span class="unit">{unit}</span>}
               </th>
-              <td>{sample === null ? "––" : text(sample.pursuer)}</td>
-              <td>{leader === null ? "––" : text(leader)}</td>
+              <td>
+                {sample === null ? "––" : text(sample.pursuer)}
+                {name === "Level" &&
+                  sample !== null &&
+                  trendSign(climbs.get(sample.pursuer.ident) ?? 0)}
+              </td>
+              <td>
+                {leader === null ? "––" : text(leader)}
+                {name === "Level" && leader !== null && trendSign(climbs.get(leader.ident) ?? 0)}
+              </td>
             </tr>
           ))}
         </tbody>

@@ -18,6 +18,7 @@ const KEYS: readonly (readonly [string, string])[] = [
   ["R  A  P", "ROSE, ARC, or PLAN: the map"],
   ["F", "on the map: all into sight; arrow keys move it, or what has the focus"],
   ["+  −", "range outward or inward"],
+  ["T", "the numbers of the next of the other aircraft, or of none"],
   ["G", "the flight over time: charts in the place of the scene"],
   ["M", "maximise or restore the 3D scene"],
   ["?", "open or close this help"],

@@ -17,6 +17,7 @@ import {
   separation,
   wasDropped,
 } from "./states";
+import { isOnOther } from "./traffic";
 import type { Message, Moment } from "./types";
 
 export interface Announcements {
@@ -43,7 +44,9 @@ export function announcementsOf(flight: Moment): Announcements {
 
 function politeOf(flight: Moment): string {
   const state = stateSentence(flight, guidance(flight));
-  const advice = flight.alerts.filter(({ level }) => level === "advisory").map(alertSentence);
+  const advice = flight.alerts
+    .filter(({ level }) => level === "advisory")
+    .map((each) => alertSentence(flight, each));
   return [state, ...advice].filter((each) => each !== "").join(" ");
 }
 
@@ -88,10 +91,14 @@ function assertiveOf(flight: Moment): string {
   const minimum = `${formatMiles(flight.started?.min_separation_m ?? 0)} nautical miles`;
   const wasLost = [flight.belowAt, flight.lost?.t_s].some((t) => isRecent(flight, t, HELD));
   const isLost = outlook === "lost" || wasLost;
-  if (isLost) sentences.push(`Separation: closer than ${minimum}.${causeOf(flight)}`);
+  const whose =
+    flight.lost !== null && outlook !== "lost" ? otherOf(flight, flight.lost.other) : "";
+  if (isLost && whose !== "")
+    sentences.push(`Separation from ${whose}: closer than its minimum.${causeOf(flight)}`);
+  else if (isLost) sentences.push(`Separation: closer than ${minimum}.${causeOf(flight)}`);
   for (const alert of flight.alerts)
     if (alert.level !== "advisory" && !(isLost && isOfLoss(alert)))
-      sentences.push(alertSentence(alert));
+      sentences.push(alertSentence(flight, alert));
   const seconds = leaderAge(flight);
   if (state === "data_lost")
     sentences.push(
@@ -119,8 +126,16 @@ function causeOf({ lost, t }: Moment): string {
 }
 const OF_THIS_LOSS = 300;
 
-function alertSentence({ message }: Alert): string {
-  return inPageUnits(message);
+/** The alert in words, which name whom it is about where that is not the leader. */
+function alertSentence(flight: Moment, { message, other }: Alert): string {
+  const said = inPageUnits(message);
+  const whose = otherOf(flight, other);
+  return whose === "" || said.includes(whose) ? said : `${whose}: ${said}`;
+}
+
+/** The ident of another aircraft or a cell; "" for the leader's. */
+function otherOf(flight: Moment, ident: string): string {
+  return isOnOther(flight, ident) ? ident : "";
 }
 
 /** The last message of some kinds. */

@@ -57,6 +57,7 @@ export const NO_MOMENT: Moment = {
   before: null,
   joinedAt: Number.POSITIVE_INFINITY,
   belowAt: Number.NEGATIVE_INFINITY,
+  climbs: new Map(),
   trail: { pursuer: [], leader: [] },
   t: 0,
   now: null,

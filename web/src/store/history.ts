@@ -124,6 +124,7 @@ export function createHistory(): History {
       before: knots.sampleAt(Math.min(t, knots.span?.last ?? 0) - news),
       joinedAt: knots.joinedAt(t),
       belowAt: knots.belowAt(t),
+      climbs: knots.climbsAt(t),
       trail: trailAt(t),
     }),
   };

@@ -48,12 +48,16 @@ interface Decided
   extends Pick<PairSample, "mode" | "engagement" | "joined" | "alert" | "slot_open"> {
   readonly pursuer: string;
   readonly leader: string;
+  readonly others: readonly string[];
   readonly reference: PairSample["reference"]["kind"];
 }
 
 /** Samples farther apart than this are no neighbours: what lies between is not known [s]. */
 const NEIGHBOURS = 10.5;
 const SLACK = 1e-6;
+/** Rates of climb are found over so long [s]. */
+const CLIMB_OVER = 4;
+const NO_CLIMBS: ReadonlyMap<string, number> = new Map();
 
 /** A column of numbers that charts draw. */
 export type Column =
@@ -73,6 +77,8 @@ export interface Knots {
   sampleAt(t: number): PairSample | null;
   joinedAt(t: number): number;
   belowAt(t: number): number;
+  /** How fast each aircraft climbs at flight time `t` [m/s], by ident: from the seconds before. */
+  climbsAt(t: number): ReadonlyMap<string, number>;
   /** How long ago anything was known at flight time `t` [s]: 0 but in gaps. */
   ageAt(t: number): number;
   /** One column over all seconds. */
@@ -82,6 +88,7 @@ export interface Knots {
 export function createKnots(): Knots {
   let rows = new Float64Array(WIDTH * 256);
   let decided: Decided[] = [];
+  let beside: Float64Array[] = []; // of each row, all other aircraft
   let count = 0;
   const kept = new Map<string, Decided>();
 
@@ -116,6 +123,11 @@ export function createKnots(): Knots {
     rows[at + BELOW] = isBelow ? sample.t_s : below;
     rows[at + HEARD] = sample.leader_age_s === 0 ? count : before < 0 ? -1 : cell(before, HEARD);
     decided.push(intern(sample));
+    const others = new Float64Array(sample.others.length * OF_AIRCRAFT.length);
+    sample.others.forEach((each, k) => {
+      putAircraft(others, k * OF_AIRCRAFT.length, each);
+    });
+    beside.push(others);
     count += 1;
   }
 
@@ -126,7 +138,8 @@ export function createKnots(): Knots {
       sample.leader.ident,
       sample.reference.kind,
     ];
-    const one = { mode, engagement, joined, alert, slot_open, pursuer, leader, reference };
+    const others = sample.others.map(({ ident }) => ident);
+    const one = { mode, engagement, joined, alert, slot_open, pursuer, leader, others, reference };
     const key = JSON.stringify(one);
     const known = kept.get(key);
     if (known !== undefined) return known;
@@ -142,7 +155,8 @@ export function createKnots(): Knots {
     const numbers = Object.fromEntries(OF_PAIR.map((name, k) => [name, rows[at + k]]));
     const slot = Object.fromEntries(OF_SLOT.map((name, k) => [name, rows[at + SLOT + k]]));
     const value = cell(row, REFERENCE);
-    const { pursuer, leader, reference, ...rest } = how;
+    const { pursuer, leader, others, reference, ...rest } = how;
+    const columns = beside[row] ?? new Float64Array();
     return {
       ...(numbers as unknown as Pick<PairSample, (typeof OF_PAIR)[number]>),
       ...rest,
@@ -153,6 +167,7 @@ export function createKnots(): Knots {
       slot: slot as unknown as PathPoint,
       pursuer: getAircraft(rows, at + PURSUER, pursuer),
       leader: getAircraft(rows, at + LEADER, leader),
+      others: others.map((ident, k) => getAircraft(columns, k * OF_AIRCRAFT.length, ident)),
     };
   }
 
@@ -200,17 +215,34 @@ export function createKnots(): Knots {
       if (sample.t_s > Math.floor(last + SLACK) + 1 - SLACK) put(sample, minSeparation);
     },
     merge(samples, minSeparation) {
-      const all = Array.from({ length: count }, (_, row) => raw(row));
-      const known = new Set(all.map(({ t_s }) => Math.round(t_s / SLACK)));
-      all.push(...samples.filter(({ t_s }) => !known.has(Math.round(t_s / SLACK))));
-      all.sort((a, b) => a.t_s - b.t_s);
+      const rowsNow = Array.from({ length: count }, (_, row) => raw(row));
+      const known = new Set(rowsNow.map(({ t_s }) => Math.round(t_s / SLACK)));
+      rowsNow.push(...samples.filter(({ t_s }) => !known.has(Math.round(t_s / SLACK))));
+      rowsNow.sort((a, b) => a.t_s - b.t_s);
       decided = [];
+      beside = [];
       count = 0;
-      for (const each of all) put(each, minSeparation);
+      for (const each of rowsNow) put(each, minSeparation);
     },
     sampleAt,
     joinedAt: (t) => (count === 0 ? Number.POSITIVE_INFINITY : cell(Math.max(0, rowAt(t)), JOINED)),
     belowAt: (t) => (count === 0 ? Number.NEGATIVE_INFINITY : cell(Math.max(0, rowAt(t)), BELOW)),
+    climbsAt(t) {
+      const row = rowAt(t);
+      const first = rowAt(t - CLIMB_OVER);
+      const [from, to] = [Math.max(0, first), Math.max(0, row)];
+      if (count === 0 || from === to) return NO_CLIMBS;
+      const [before, now] = [raw(from), raw(to)];
+      const past = now.t_s - before.t_s;
+      if (past > NEIGHBOURS) return NO_CLIMBS;
+      const levels = new Map(all(before).map((each) => [each.ident, each.altitude_m]));
+      return new Map(
+        all(now).map(({ ident, altitude_m }) => [
+          ident,
+          (altitude_m - (levels.get(ident) ?? altitude_m)) / past,
+        ]),
+      );
+    },
     ageAt(t) {
       const row = rowAt(t);
       if (row < 0 || row === count - 1) return 0;
@@ -229,6 +261,10 @@ function columnOf(name: Column): number {
   if (what === undefined) return (OF_PAIR as readonly string[]).indexOf(name);
   const first = whose === "pursuer" ? PURSUER : LEADER;
   return first + (OF_AIRCRAFT as readonly string[]).indexOf(what);
+}
+
+function all({ pursuer, leader, others }: PairSample): AircraftSample[] {
+  return [pursuer, leader, ...others];
 }
 
 function putAircraft(rows: Float64Array, at: number, aircraft: AircraftSample): void {

@@ -55,6 +55,7 @@ export function moveSample(sample: PairSample, dt: number): PairSample {
     t_s: sample.t_s + dt,
     pursuer,
     leader,
+    others: sample.others.map((each) => moveAircraft(each, dt)),
     separation_m: Math.hypot(pursuer.x_m - leader.x_m, pursuer.y_m - leader.y_m),
     slot: moveSlot(sample.slot, sample.leader, dt),
     time_to_go_s: Math.max(0, sample.time_to_go_s - dt),
@@ -67,11 +68,16 @@ export function interpolate(from: PairSample, to: PairSample, t: number): PairSa
   const part = (t - from.t_s) / length;
   const pursuer = meanwhile(from.pursuer, to.pursuer, part, length);
   const leader = meanwhile(from.leader, to.leader, part, length);
+  const others = from.others.map((each) => {
+    const later = to.others.find(({ ident }) => ident === each.ident);
+    return later === undefined ? each : meanwhile(each, later, part, length);
+  });
   const mixed = (name: Mixed) => mix(from[name], to[name], part);
   return {
     ...moveSample(from, t - from.t_s),
     pursuer,
     leader,
+    others,
     separation_m: Math.hypot(pursuer.x_m - leader.x_m, pursuer.y_m - leader.y_m),
     closure_mps: mixed("closure_mps"),
     least_separation_m: mixed("least_separation_m"),
@@ -152,9 +158,11 @@ export interface Moved {
   readonly turned: number;
   readonly leader: Vector;
   readonly slot: Vector;
+  /** The other aircraft, by ident. */
+  readonly others: ReadonlyMap<string, Vector>;
 }
 
-export const STILL: Moved = { own: CALM, turned: 0, leader: CALM, slot: CALM };
+export const STILL: Moved = { own: CALM, turned: 0, leader: CALM, slot: CALM, others: new Map() };
 
 /** What has moved by how much `dt` [s] later. */
 export function movedBy(sample: PairSample, dt: number): Moved {
@@ -165,6 +173,9 @@ export function movedBy(sample: PairSample, dt: number): Moved {
     turned: wrap180(later.pursuer.heading_deg - sample.pursuer.heading_deg),
     leader: between(sample.leader, later.leader),
     slot: between(sample.slot, later.slot),
+    others: new Map(
+      sample.others.map((each, k) => [each.ident, between(each, later.others[k] ?? each)]),
+    ),
   };
 }
 
@@ -178,6 +189,7 @@ function between(from: At, to: At): Vector {
 export interface Gap {
   readonly pursuer: AircraftGap;
   readonly leader: AircraftGap;
+  readonly others: ReadonlyMap<string, AircraftGap>;
 }
 
 interface AircraftGap {
@@ -187,7 +199,7 @@ interface AircraftGap {
 }
 
 const CLOSED: AircraftGap = { x: 0, y: 0, heading: 0 };
-export const NO_GAP: Gap = { pursuer: CLOSED, leader: CLOSED };
+export const NO_GAP: Gap = { pursuer: CLOSED, leader: CLOSED, others: new Map() };
 
 /** Time constant with which a gap closes [wall ms]: three ticks. */
 const CLOSING = 150;
@@ -199,6 +211,12 @@ export function gap(shown: PairSample, truth: PairSample): Gap {
   return {
     pursuer: aircraftGap(shown.pursuer, truth.pursuer),
     leader: aircraftGap(shown.leader, truth.leader),
+    others: new Map(
+      truth.others.map((each) => {
+        const before = shown.others.find(({ ident }) => ident === each.ident);
+        return [each.ident, before === undefined ? CLOSED : aircraftGap(before, each)];
+      }),
+    ),
   };
 }
 
@@ -217,6 +235,7 @@ export function blend(sample: PairSample, found: Gap, age: number): PairSample {
     ...sample,
     pursuer: nudge(sample.pursuer, found.pursuer, left),
     leader: nudge(sample.leader, found.leader, left),
+    others: sample.others.map((each) => nudge(each, found.others.get(each.ident) ?? CLOSED, left)),
   };
 }
 

@@ -22,6 +22,7 @@ import {
   separation,
   wasDropped,
 } from "./states";
+import { isOnOther } from "./traffic";
 import type { Moment } from "./types";
 
 export interface Notice {
@@ -43,6 +44,7 @@ export const UNABLE: Record<Reason, string> = {
   separation_unavoidable: "SEP",
   beyond_horizon: "TIME",
   deadline: "TIME",
+  traffic: "TRAFFIC",
 };
 
 /** … and in those of `Unable`. */
@@ -106,8 +108,11 @@ export function noticesOf(flight: Moment): readonly Notice[] {
   const isLost = separation(flight).state === "lost" || isHeld(flight);
   if (seen.map && flight.now !== null && isLost)
     notices.push({ level: "warning", text: "SEPARATION" });
-  else if (flight.lost !== null && isRecent(flight, flight.lost.t_s, HELD))
-    notices.push({ level: "warning", text: "SEPARATION" });
+  else if (flight.lost !== null && isRecent(flight, flight.lost.t_s, HELD)) {
+    const { other } = flight.lost;
+    const text = isOnOther(flight, other) ? `SEPARATION ${other}` : "SEPARATION";
+    notices.push({ level: "warning", text });
+  }
   const seconds = leaderAge(flight);
   const state = guidance(flight);
   if (state === "data_lost") notices.push({ level: "caution", text: "LDR DATA LOST" });
@@ -174,7 +179,12 @@ function isHeld(flight: Moment): boolean {
 }
 
 function alertText(flight: Moment, alert: Alert): string {
-  if (alert.subject !== "separation") return ALERTED[alert.subject];
+  const other = isOnOther(flight, alert.other) ? alert.other : null;
+  const about = other === null ? "" : `${other} `;
+  if (alert.subject !== "separation")
+    return other === null
+      ? ALERTED[alert.subject]
+      : about + ALERTED[alert.subject].replace("LDR ", "");
   const within = Math.max(0, Math.round(alert.predicted_at_s - flight.t));
-  return `${ALERTED.separation} IN ${within} S`;
+  return `${ALERTED.separation} ${about}IN ${within} S`;
 }

@@ -7,6 +7,7 @@
 import type {
   AircraftCard,
   AircraftSample,
+  CellCard,
   Document,
   FlightEnded,
   FlightStarted,
@@ -16,30 +17,42 @@ import type {
   Sample,
 } from "../wire";
 
-/** What is known of the two before the flight. */
+/** An aircraft beside the two, and the ident of whom it is to join; "" if that is nobody. */
+export interface OtherCard extends AircraftCard {
+  readonly follows: string;
+}
+
+/** What is known of the two before the flight, and of what is about them. */
 export interface PairCard
-  extends Omit<FlightStarted, "kind" | "aircraft" | "links">,
+  extends Omit<FlightStarted, "kind" | "aircraft" | "links" | "cells">,
     Omit<LinkCard, "pursuer" | "leader"> {
   readonly pursuer: AircraftCard;
   readonly leader: AircraftCard;
+  readonly others: readonly OtherCard[];
+  readonly cells: readonly CellCard[];
 }
 
-/** The two at one instant. */
+/** The two at one instant, and all others. */
 export interface PairSample extends Omit<GuidanceSample, "ident" | "leader"> {
   readonly t_s: number;
   readonly pursuer: AircraftSample;
   readonly leader: AircraftSample;
+  readonly others: readonly AircraftSample[];
 }
 
 /** The two of the first link; null if the flight has none. */
 export function pairCard(started: FlightStarted): PairCard | null {
-  const { kind: _, aircraft, links, ...flight } = started;
+  const { kind: _, aircraft, links, cells = [], ...flight } = started;
   const link = links[0];
   if (link === undefined) return null;
   const pursuer = withIdent(aircraft, link.pursuer);
   const leader = withIdent(aircraft, link.leader);
   if (pursuer === null || leader === null) return null;
-  return { ...flight, ...link, pursuer, leader };
+  const others = beside(aircraft, link).map((each) => {
+    const follows = links.find((other) => other.pursuer === each.ident)?.leader ?? "";
+    return { ...each, follows };
+  });
+  return { ...flight, ...link, pursuer, leader, others, cells };
 }
 
 /** The two in a sample; null if it lacks one of them. */
@@ -49,7 +62,16 @@ export function pairSample(sample: Sample, pair: PairCard): PairSample | null {
   const guidance = withIdent(sample.guidance, pair.pursuer.ident);
   if (pursuer === null || leader === null || guidance === null) return null;
   const { ident: _, ...seen } = guidance;
-  return { ...seen, t_s: sample.t_s, pursuer, leader };
+  const others = beside(sample.aircraft, { pursuer: pursuer.ident, leader: leader.ident });
+  return { ...seen, t_s: sample.t_s, pursuer, leader, others };
+}
+
+/** All but the two. */
+function beside<T extends { readonly ident: string }>(
+  all: readonly T[],
+  { pursuer, leader }: Pick<LinkCard, "pursuer" | "leader">,
+): readonly T[] {
+  return all.filter(({ ident }) => ident !== pursuer && ident !== leader);
 }
 
 /** How it went for the two; null if that is not said. */

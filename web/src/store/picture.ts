@@ -3,7 +3,7 @@
  * and the time of the view. The display, the panels and the scene's poster read it and compute nothing.
  */
 
-import { computed, type ReadonlySignal, signal } from "@preact/signals";
+import { computed, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometry";
 import { KT, NM } from "../units";
 import type {
@@ -51,8 +51,10 @@ import {
   type Outlook,
   separation,
 } from "./states";
+import { type Traffic, trafficOf } from "./traffic";
 import type { TrailPoint } from "./trail";
 import type { Flight, Moment, Proposal } from "./types";
+import { type Cell, cellsOf } from "./weather";
 
 export type { Moved } from "./motion";
 
@@ -112,6 +114,11 @@ export interface Picture {
   /** The two, while what guidance says may be shown. */
   readonly guided: PairSample | null;
   readonly started: PairCard | null;
+  /** The other aircraft, the least urgent first; none while the map may not be shown. */
+  readonly traffic: readonly Traffic[];
+  readonly cells: readonly Cell[];
+  /** How fast the leader climbs [m/s]. */
+  readonly leaderClimb: number;
   /** What the leader is called. */
   readonly ident: string;
   /** Where own ship will be if it keeps turning as now; nothing when it is too slow for that. */
@@ -180,6 +187,8 @@ export interface Shown {
   readonly ghost: ReadonlySignal<Ghost | null>;
   /** What planners that are compared would fly; none while that is closed. */
   readonly rivals: ReadonlySignal<readonly Rival[]>;
+  /** The ident of the other aircraft whose numbers are shown; null for none. */
+  readonly chosen: Signal<string | null>;
 }
 
 const NO_GHOST: ReadonlySignal<Ghost | null> = signal(null);
@@ -205,6 +214,7 @@ export function createShown(
     spoken: computed(() => announcementsOf(read.value)),
     ghost,
     rivals,
+    chosen: signal(null),
   };
 }
 
@@ -238,6 +248,9 @@ export function pictureOf(flight: Moment): Picture {
     now,
     guided,
     started: flight.started,
+    traffic: seen.map ? trafficOf(flight) : [],
+    cells: seen.map ? cellsOf(flight) : [],
+    leaderClimb: flight.climbs.get(flight.started?.leader.ident ?? "") ?? 0,
     ident: flight.started?.leader.ident ?? "LEADER",
     trend: now === null ? [] : trendOf(now),
     route: now === null || !designated || !known.guidance ? null : flight.route,

@@ -3,6 +3,7 @@
 import { KT } from "../units";
 import type { PlanChanged } from "../wire";
 import type { PairSample } from "./pair";
+import { isOnOther } from "./traffic";
 import type { Flight, Moment } from "./types";
 
 /**
@@ -134,7 +135,8 @@ export function separation(flight: Moment): Outlook {
   if (now === null || minSeparation === undefined) return { state: "kept", within: 0 };
   if (now.separation_m < minSeparation - GRAZE) return { state: "lost", within: 0 };
   const alert = flight.alerts.find(
-    ({ subject, level }) => subject === "separation" && level !== "advisory",
+    ({ subject, level, other }) =>
+      subject === "separation" && level !== "advisory" && !isOnOther(flight, other),
   );
   if (alert === undefined) return { state: "kept", within: 0 };
   const within = Math.max(0, Math.round(alert.predicted_at_s - flight.t));

@@ -93,6 +93,8 @@ export interface Seen {
   /** Since when it has joined, and when the minimum was last infringed [s, flight time]. */
   readonly joinedAt: number;
   readonly belowAt: number;
+  /** How fast each aircraft climbs [m/s], by ident. */
+  readonly climbs: ReadonlyMap<string, number>;
   readonly trail: {
     readonly pursuer: readonly TrailPoint[];
     readonly leader: readonly TrailPoint[];

@@ -126,6 +126,7 @@ function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): P
     t_s: t,
     pursuer,
     leader,
+    others: [],
     mode,
     reference:
       Math.abs(pursuer.turn_rate_degps) > 0.01

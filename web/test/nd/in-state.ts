@@ -4,7 +4,7 @@ import type { PairSample } from "../../src/store/pair";
 import type { Guidance } from "../../src/store/states";
 import type { Flight } from "../../src/store/types";
 import type { PlanProposed } from "../../src/wire";
-import { amend, noPlan, unable } from "../samples";
+import { aircraft, amend, noPlan, unable } from "../samples";
 import { documentsOf, flightAt } from "./fixture";
 
 /** When each is shown [s, flight time]. */
@@ -27,11 +27,21 @@ export function proposal(): PlanProposed {
   };
 }
 
+/** One more aircraft, 5 NM north of own ship. */
+function bringTraffic(flight: Flight): void {
+  const { now } = flight.moment.value;
+  if (now === null) throw new Error("An empty flight.");
+  const { x_m, y_m } = now.pursuer;
+  const others = [aircraft({ ident: "BAW12", x_m, y_m: y_m + 9260 })];
+  amend(flight, { sample: { ...now, others }, now: { ...now, others } });
+}
+
 /** A flight in a state, `t` [s] after its plan was made. */
 export function flightIn(state: Guidance, t = state === "follow" ? 900 : T): Flight {
   const mode =
     state === "converge" || state === "capture" || state === "follow" || state === "escape";
   const flight = flightAt("fig_6b", t, mode ? state : "heading");
+  bringTraffic(flight);
   const change = (sample: Partial<PairSample>) => {
     if (flight.moment.value.sample === null) throw new Error("An empty flight.");
     const changed = { ...flight.moment.value.sample, ...sample };

@@ -76,6 +76,8 @@ const STORE = [
   "states",
   "state-styles",
   "reading",
+  "traffic",
+  "weather",
 ];
 
 test("the display knows nothing of streams, requests and panels, and reads only the picture", () => {

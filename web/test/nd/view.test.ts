@@ -50,6 +50,7 @@ test.each([ROSE, ARC])("what is carried on stands where it would be drawn in $mo
     turned: 0.5,
     leader: { x: -38, y: 9 },
     slot: { x: 30, y: 30 },
+    others: new Map([["BAW12", { x: 12, y: -40 }]]),
   };
   const later = {
     x_m: POSE.x_m + moved.own.x,
@@ -58,9 +59,13 @@ test.each([ROSE, ARC])("what is carried on stands where it would be drawn in $mo
   };
   const place = ahead(9, -7);
   const there = project(layout, POSE, place);
-  const by = { map: { x: 0, y: 0 }, leader: moved.leader, slot: moved.slot };
-  for (const carrier of ["map", "leader", "slot"] as const) {
-    const { x, y } = by[carrier];
+  const by = [
+    ["map", { x: 0, y: 0 }],
+    ["leader", moved.leader],
+    ["slot", moved.slot],
+    ["other BAW12", { x: 12, y: -40 }],
+  ] as const;
+  for (const [carrier, { x, y }] of by) {
     const expected = project(layout, later, { x_m: place.x_m + x, y_m: place.y_m + y });
     const seen = glided(carry(layout, POSE.heading_deg, moved, carrier), layout, there);
     expect(seen.x).toBeCloseTo(expected.x, 0.8);
