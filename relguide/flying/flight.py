@@ -32,6 +32,8 @@ from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
 from relguide.flying.wind_profile import WindProfile
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
+from relguide.planning.aircraft import Traffic
+from relguide.planning.cells import Cell
 from relguide.planning.inputs import (
     expect,
     expect_function,
@@ -64,13 +66,13 @@ class DeclaredLeader:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario:
-    """A flight that can be flown: where both begin, and what the leader will do."""
+    """A flight that can be flown: where all begin, and what the leader will do."""
 
     name: str
     title: str
     description: str
     situation: Situation
-    """At t = 0, with the leader's true intent."""
+    """At t = 0, with the leader's true intent; other traffic flies what it declares."""
     intent_known: bool = True
     """Whether the pursuer knows it."""
     declared_intent: tuple[IntentPiece, ...] | None = None
@@ -257,7 +259,7 @@ def _name_of(planner: Planner, situation: Situation) -> str:
 
 
 def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) -> World:
-    """The world of a scenario: two aircraft and their link, and the queue that they are of.
+    """The world of a scenario: two aircraft, their queue and its links, and all others.
 
     Args:
         scenario: what is to be flown.
@@ -306,12 +308,36 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
                 one.aircraft(scenario.altitude, seed + k if seed else 0)
                 for k, one in enumerate((*scenario.ahead, *scenario.followers), start=1)
             ),
+            *(
+                _traffic(other, scenario)
+                for other in situation.others
+                if isinstance(other, Traffic)
+            ),
         ),
         links=_links(scenario),
         air=scenario.air,
         believed_air=scenario.believed_air,
         surveillance=scenario.surveillance,
         settings=settings,
+        cells=tuple(other for other in situation.others if isinstance(other, Cell)),
+    )
+
+
+def _traffic(other: Traffic, scenario: Scenario) -> Aircraft:
+    """Other traffic, which flies what it has declared; at the level of the two if it says none."""
+    banks = [piece.bank for piece in other.intent if isinstance(piece, TurnTo)]
+    return Aircraft(
+        ident=other.ident,
+        airframe=airframe(DEFAULT_TYPE),
+        aircraft_type=DEFAULT_TYPE,
+        x=other.x,
+        y=other.y,
+        heading=other.heading,
+        tas=other.tas,
+        altitude=scenario.altitude if other.altitude is None else other.altitude,
+        max_bank=max(LEADER_BANK, *banks, 0.0),
+        pilot=Declared(intent=other.intent),
+        min_separation=other.min_separation,
     )
 
 

@@ -239,8 +239,8 @@ DESCRIPTIONS = {
     "40 km north, makes for the route after the turn from the start.",
     "recorded_leader": "The leader flies as it was recorded by ADS-B near Paris, intent unknown; "
     "the pursuer begins 30 km behind it and 20 km to its left.",
-    "stream_of_five": "Five aircraft from both sides join behind a leader that turns by 30°, each a "
-    "minute behind the one before.",
+    "stream_of_five": "Five aircraft from both sides join behind a leader that turns by 30°, each "
+    "a minute behind the one before.",
     "overtaking_queue": "A pursuer that flies 245 m/s from far behind joins the end of a queue of "
     "three behind a leader that flies 200 m/s.",
 }
