@@ -1,4 +1,4 @@
-"""fly(scenario, planner): a flight of two, a pursuer and its leader.
+"""fly(scenario, planner): a flight of a pursuer and its leader, and of others in their queue.
 
 A `Scenario` says where both begin and what the leader will do; `fly` makes a world of it and
 simulates it.
@@ -15,6 +15,7 @@ from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.flying.envelope import envelope_fault
 from relguide.flying.fans import Wants, no_fans
+from relguide.flying.followers import Follower, expect_followers
 from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.guidances import Guidance, expect_guidance
 from relguide.flying.orders import Command
@@ -26,6 +27,7 @@ from relguide.flying.orders import LeaderSpeed as LeaderSpeed
 from relguide.flying.orders import PursuerHeading as PursuerHeading
 from relguide.flying.orders import SetEngagement as SetEngagement
 from relguide.flying.orders import no_commands as no_commands
+from relguide.flying.queues import queue_up
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
@@ -100,6 +102,10 @@ class Scenario:
     """How the pursuer sees its leader."""
     spacing: Second = 0.0
     """Time behind the leader to keep once joined [s]; 0 to keep D."""
+    ahead: tuple[Follower, ...] = ()
+    """A queue behind the leader, whose last aircraft the pursuer joins; the first one first."""
+    followers: tuple[Follower, ...] = ()
+    """A queue behind the pursuer."""
     duration_limit: Second = 3600.0
     """The flight ends here at the latest [s]."""
     after_joining: Second = 120.0
@@ -116,6 +122,10 @@ class Scenario:
             raise ValueError(
                 f"pursuer_ident and leader_ident must differ, not both be {self.leader_ident!r}."
             )
+        taken = {self.pursuer_ident, self.leader_ident}
+        for name in ("ahead", "followers"):
+            queue = expect_followers(name, getattr(self, name), taken)
+            object.__setattr__(self, name, queue)
         expect_within("altitude", self.altitude, *ALTITUDE)
         expect_within("spacing", self.spacing, *SPACING)
         if self.believed_air is not None:
@@ -250,7 +260,7 @@ def _name_of(planner: Planner, situation: Situation) -> str:
 
 
 def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) -> World:
-    """The world of a scenario: two aircraft, the link between them, and all others.
+    """The world of a scenario: two aircraft, their queue and its links, and all others.
 
     Args:
         scenario: what is to be flown.
@@ -296,22 +306,16 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
                 pilot=pilot,
             ),
             *(
+                one.aircraft(scenario.altitude, seed + k if seed else 0)
+                for k, one in enumerate((*scenario.ahead, *scenario.followers), start=1)
+            ),
+            *(
                 _traffic(other, scenario)
                 for other in situation.others
                 if isinstance(other, Traffic)
             ),
         ),
-        links=(
-            Link(
-                pursuer=scenario.pursuer_ident,
-                leader=scenario.leader_ident,
-                slot_distance=situation.slot_distance,
-                min_separation=situation.min_separation,
-                spacing=scenario.spacing,
-                intent_known=scenario.intent_known,
-                declared_intent=scenario.declared_intent,
-            ),
-        ),
+        links=_links(scenario),
         air=scenario.air,
         believed_air=scenario.believed_air,
         surveillance=scenario.surveillance,
@@ -336,6 +340,26 @@ def _traffic(other: Traffic, scenario: Scenario) -> Aircraft:
         pilot=Declared(intent=other.intent),
         min_separation=other.min_separation,
     )
+
+
+def _links(scenario: Scenario) -> tuple[Link, ...]:
+    """Each behind the one before it; the link of the scenario's pursuer comes first."""
+    situation, own = scenario.situation, scenario.pursuer_ident
+    queue = (
+        *(one.ident for one in scenario.ahead),
+        own,
+        *(one.ident for one in scenario.followers),
+    )
+    links = queue_up(
+        queue,
+        scenario.leader_ident,
+        slot_distance=situation.slot_distance,
+        min_separation=situation.min_separation,
+        spacing=scenario.spacing,
+        intent_known=scenario.intent_known,
+        declared_intent=scenario.declared_intent,
+    )
+    return tuple(sorted(links, key=lambda link: link.pursuer != own))
 
 
 def _leader_airframe(designator: str) -> Airframe:
