@@ -20,7 +20,7 @@ from rich.table import Table
 from benchmarks.options import positive
 from relguide import RIGHT, FlyStraight, Leader, Pursuer, Situation, TurnTo, Wind
 from relguide.contract.area_bodies import area_to_wire
-from relguide.contract.bodies import Unanchored
+from relguide.contract.places import Unanchored
 from relguide.learn.words.area_words import area_words
 from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.maps.contours import contours, regions

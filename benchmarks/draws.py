@@ -1,7 +1,7 @@
 """Situations drawn at random, among them those in which the separation limit is active."""
 
 from dataclasses import replace
-from math import cos, pi, radians, sin
+from math import cos, hypot, pi, radians, sin
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from relguide import (
     Leader,
     Pursuer,
     Situation,
+    Traffic,
     TurnTo,
     Wind,
     candidates,
@@ -20,6 +21,7 @@ from relguide import (
     wind_from,
 )
 from relguide.planning.intent import IntentPiece
+from relguide.units import NM
 
 
 def anywhere(rng: np.random.Generator) -> Situation:
@@ -131,3 +133,46 @@ def _turns(rng: np.random.Generator) -> tuple[IntentPiece, ...]:
 def _wind(rng: np.random.Generator, tas: float) -> Wind:
     # a quarter of the pursuer's airspeed: the slowest leader still makes headway
     return wind_from(float(rng.uniform(0.0, 2.0 * pi)), tas * float(rng.uniform(0.0, 0.25)))
+
+
+def amid_traffic(rng: np.random.Generator, count: int) -> Situation:
+    """A straight leader in calm air, with other straight traffic anywhere within 140 km.
+
+    The pursuer begins within 100 km of the leader; all are clear of it at first.
+
+    Args:
+        rng: the source of chance.
+        count: how many others.
+    """
+    limit, tas = 5.0 * NM, float(rng.uniform(200.0, 250.0))
+    while True:
+        alone = Situation(
+            pursuer=Pursuer(
+                x=float(rng.uniform(-70e3, 70e3)),
+                y=float(rng.uniform(-70e3, 70e3)),
+                heading=float(rng.uniform(0.0, 2.0 * pi)),
+                tas=tas,
+                max_bank=radians(25.0),
+            ),
+            leader=Leader(x=0.0, y=0.0, heading=0.0, tas=tas * float(rng.uniform(0.7, 0.95))),
+            slot_distance=12e3,
+            min_separation=limit,
+        )
+        own = alone.pursuer
+        others: list[Traffic] = []
+        while len(others) < count:
+            x, y = rng.uniform(-140e3, 140e3, 2)
+            heading, speed = rng.uniform(0.0, 2.0 * pi), rng.uniform(180.0, 260.0)
+            if hypot(x - own.x, y - own.y) > limit:
+                others.append(
+                    Traffic(
+                        ident=f"T{len(others) + 1}",
+                        x=float(x),
+                        y=float(y),
+                        heading=float(heading),
+                        tas=float(speed),
+                        min_separation=limit,
+                    )
+                )
+        if hypot(own.x, own.y) > limit:
+            return replace(alone, others=tuple(others))

@@ -92,6 +92,7 @@ if typing.TYPE_CHECKING:
     from relguide.planning.certificate import certify as certify
     from relguide.planning.intent import ChangeLevel as ChangeLevel
     from relguide.planning.intent import FlyStraight as FlyStraight
+    from relguide.planning.intent import LevelChange as LevelChange
     from relguide.planning.intent import TurnTo as TurnTo
     from relguide.planning.optimality import OptimalityReport as OptimalityReport
     from relguide.planning.optimality import check as check
@@ -201,6 +202,7 @@ _HOMES = {
     "Samples": "relguide.planning.sampling",
     "CALM": "relguide.planning.wind",
     "FlyStraight": "relguide.planning.intent",
+    "LevelChange": "relguide.planning.intent",
     "Leader": "relguide.planning.aircraft",
     "Pursuer": "relguide.planning.aircraft",
     "Situation": "relguide.planning.situation",
@@ -257,6 +259,7 @@ __all__ = [
     "LeaderHeading",
     "LeaderRoute",
     "LeaderSpeed",
+    "LevelChange",
     "Link",
     "ModeChanged",
     "NoPlan",

@@ -26,10 +26,45 @@ BODY: dict[str, Any] = {
     "wind": {"from_deg": 270, "speed_mps": 15},
 }
 
+TRAFFIC: list[dict[str, Any]] = [
+    {
+        "ident": "BAW12",
+        "x_m": 200000,
+        "y_m": 150000,
+        "heading_deg": 200,
+        "tas_mps": 220,
+        "altitude_m": 9000,
+        "intent": [
+            {"straight_s": 30},
+            {"level_change": {"to_altitude_m": 8000, "rate_mps": 8, "hold": "mach"}},
+            {"turn_to_heading_deg": 90, "direction": "left", "bank_deg": 20},
+        ],
+        "min_separation_m": 5000,
+    },
+    {"ident": "AFR7", "x_m": -150000, "y_m": 0, "heading_deg": 0, "tas_mps": 200},
+]
+"""Other aircraft that are far away."""
+CELLS: list[dict[str, Any]] = [
+    {
+        "ident": "CB1",
+        "disc": {"x_m": -200000, "y_m": 0, "radius_m": 20000},
+        "velocity_mps": [10, -5],
+        "growth_mps": 2,
+    },
+    {"ident": "CB2", "polygon": [[-90000, -150000], [-50000, -150000], [-70000, -120000]]},
+]
+"""Weather that is far away."""
+AMID: dict[str, Any] = {**BODY, "traffic": TRAFFIC, "cells": CELLS}
+
 
 def change(path: str, value: Any) -> dict[str, Any]:
     """BODY with one field set, or removed if the value is `...`."""
-    body = copy.deepcopy(BODY)
+    return changed(BODY, path, value)
+
+
+def changed(body: dict[str, Any], path: str, value: Any) -> dict[str, Any]:
+    """The same of any body."""
+    body = copy.deepcopy(body)
     put(body, path, value)
     return body
 
@@ -42,11 +77,14 @@ def put(body: dict[str, Any], path: str, value: Any) -> None:
         here = here[int(step)] if step.isdigit() else here[step]
     if value is ...:
         del here[last]
+    elif last.isdigit():
+        here[int(last)] = value
     else:
         here[last] = value
 
 
 def on_earth(pursuer: tuple[float, float], leader: tuple[float, float]) -> dict[str, Any]:
+    """BODY with both aircraft at latitude and longitude."""
     body = copy.deepcopy(BODY)
     for name, (lat, lon) in (("pursuer", pursuer), ("leader", leader)):
         del body[name]["x_m"], body[name]["y_m"]

@@ -4,7 +4,7 @@ from dataclasses import is_dataclass
 from enum import Enum
 from functools import reduce
 from operator import or_
-from types import UnionType
+from types import NoneType, UnionType
 from typing import Any, Literal, get_args, get_origin
 
 from hypothesis import strategies as st
@@ -41,7 +41,8 @@ def _values(name: str, annotation: Any) -> st.SearchStrategy[Any]:
     if get_origin(annotation) is tuple:
         return st.lists(_values(name, get_args(annotation)[0]), max_size=3).map(tuple)
     if get_origin(annotation) is UnionType:
-        return reduce(or_, map(document_of, get_args(annotation)))
+        members = (st.none() if m is NoneType else document_of(m) for m in get_args(annotation))
+        return reduce(or_, members)
     if isinstance(annotation, type) and issubclass(annotation, Enum):
         return st.sampled_from(list(annotation))
     assert is_dataclass(annotation)

@@ -38,7 +38,8 @@ class Key(NamedTuple):
 
 def _pursuer(name: str, unit: float = 1.0) -> Setter:
     def set_it(case: Case, value: float, rng: Draw) -> Case:
-        pursuer = replace(case.scenario.situation.pursuer, **{name: value * unit})
+        changed: Any = {name: value * unit}
+        pursuer = replace(case.scenario.situation.pursuer, **changed)
         return _with(case, pursuer=pursuer)
 
     return set_it

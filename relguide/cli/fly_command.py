@@ -39,6 +39,7 @@ EXAMPLES = """
         {"t_s": 60, "intent_known": false}
         {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
         {"t_s": 950, "leader_tas_mps": 100}
+    with "ident": "NAME" in it, another than the leader does so
     """
 MAX_FOLLOWING = 36_000.0
 """Longest time to follow [s]."""
@@ -82,7 +83,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--orders",
         metavar="FILE",
-        help="what the leader is ordered to do, JSON lines in order of time; -: standard input",
+        help="what the leader, or the aircraft named, is ordered to do: JSON lines in order of "
+        "time; -: standard input",
     )
     parser.add_argument(
         "--after-joining",
@@ -118,10 +120,10 @@ def run(chosen: argparse.Namespace) -> int:
     """Fly, and print how it went: did it join, and keep d_min?"""
     table = for_people(chosen, "rich")
     from relguide.contract.flight_summary import failures, figures, summarize
-    from relguide.contract.orders import commands_of
+    from relguide.contract.orders import commands_of, expect_flying
     from relguide.contract.recorder import record
     from relguide.flying.fans import all_fans, no_fans
-    from relguide.flying.flight import fly
+    from relguide.flying.flight import fly, world_of
     from relguide.flying.guidance.settings import DEFAULT, load_settings
     from relguide.planning.progress import show_progress
 
@@ -134,6 +136,7 @@ def run(chosen: argparse.Namespace) -> int:
         scenario = replace(scenario, spacing=chosen.spacing)
     if chosen.gusts is not None:
         scenario = replace(scenario, gusts=chosen.gusts)
+    expect_flying(orders, world_of(scenario))
     settings = DEFAULT if chosen.settings is None else load_settings(chosen.settings)
     planner = make_planner(chosen.planner)
     flown = partial(

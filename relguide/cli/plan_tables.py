@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from relguide.cli.others_tables import print_conflict, print_others
 from relguide.cli.shared_tables import clock, miles
 from relguide.flying.plan_documents import (
     AlternativeCard,
@@ -77,6 +78,7 @@ def print_plan(card: PlanCard, *, min_separation: float) -> None:
         f"Least separation {miles(card.separation.least)} after {clock(card.separation.at)}: "
         f"{miles(keeps)} more than d_min; proved above {miles(card.separation.proved_above)}."
     )
+    print_others(console, card.separation)
     bound = card.optimality.lower_bound
     closed = card.optimality.proof in ("relaxation", "certified")
     gap = "closed" if closed else f"of {card.time_to_converge - bound:.1f} s is open"
@@ -137,6 +139,7 @@ def print_no_plan(card: NoPlanCard) -> None:
     console = Console(highlight=False)
     console.print(Text("No plan", style="bold red") + f" ({card.reason.value})")
     console.print(card.message)
+    print_conflict(console, card)
 
 
 def print_optimality(check: OptimalityCheck) -> None:

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from relguide.contract.bodies import Anchor, NamedSituationBody
+    from relguide.contract.bodies import NamedSituationBody
+    from relguide.contract.places import Anchor
     from relguide.flying.flight import Scenario
     from relguide.planning.situation import Situation
 

@@ -1,11 +1,13 @@
 """Situations as the service takes them: the contract's reader the other way round."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import atan2, degrees
-from typing import Any
+from typing import Any, assert_never
 
+from relguide.planning.aircraft import Leader, Pursuer, Traffic
+from relguide.planning.cells import Cell, Disc, Polygon
 from relguide.planning.intent import ChangeLevel, FlyStraight, IntentPiece, TurnTo
-from relguide.planning.situation import Situation
+from relguide.planning.situation import Other, Situation
 from relguide.planning.trajectory import LEFT
 from relguide.planning.wind import CALM, Wind
 
@@ -25,6 +27,7 @@ def body_of(asked: Asked) -> Mapping[str, Any]:
             "heading_deg": degrees(own.heading),
             "tas_mps": own.tas,
             "max_bank_deg": degrees(own.max_bank),
+            **_altitude(own),
         },
         "leader": {
             "x_m": leader.x,
@@ -32,10 +35,57 @@ def body_of(asked: Asked) -> Mapping[str, Any]:
             "heading_deg": degrees(leader.heading),
             "tas_mps": leader.tas,
             "intent": [_piece(piece) for piece in leader.intent],
+            **_altitude(leader),
         },
         "slot_distance_m": asked.slot_distance,
         "min_separation_m": asked.min_separation,
         **_wind(asked.wind),
+        **_others(asked.others),
+    }
+
+
+def _altitude(aircraft: Pursuer | Leader | Traffic) -> dict[str, Any]:
+    return {} if aircraft.altitude is None else {"altitude_m": aircraft.altitude}
+
+
+def _others(others: Sequence[Other]) -> dict[str, Any]:
+    """Those of each kind, if there are any."""
+    written: dict[str, Any] = {}
+    for other in others:
+        match other:
+            case Traffic():
+                written.setdefault("traffic", []).append(_traffic(other))
+            case Cell():
+                written.setdefault("cells", []).append(_cell(other))
+    return written
+
+
+def _traffic(traffic: Traffic) -> dict[str, Any]:
+    return {
+        "ident": traffic.ident,
+        "x_m": traffic.x,
+        "y_m": traffic.y,
+        "heading_deg": degrees(traffic.heading),
+        "tas_mps": traffic.tas,
+        **_altitude(traffic),
+        "intent": [_piece(piece) for piece in traffic.intent],
+        "min_separation_m": traffic.min_separation,
+    }
+
+
+def _cell(cell: Cell) -> dict[str, Any]:
+    match cell.shape:
+        case Disc(x=x, y=y, radius=radius):
+            shape: dict[str, Any] = {"disc": {"x_m": x, "y_m": y, "radius_m": radius}}
+        case Polygon(corners=corners):
+            shape = {"polygon": [[x, y] for x, y in corners]}
+        case _:
+            assert_never(cell.shape)
+    return {
+        "ident": cell.ident,
+        **shape,
+        "velocity_mps": [cell.east, cell.north],
+        "growth_mps": cell.growth,
     }
 
 

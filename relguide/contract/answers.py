@@ -4,7 +4,8 @@ from collections.abc import Collection, Iterable
 from math import inf
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
-from relguide.contract.bodies import Anchor, flown_to_wire, path_to_wire, plan_to_wire
+from relguide.contract.bodies import flown_to_wire, path_to_wire, plan_to_wire
+from relguide.contract.places import Anchor
 from relguide.contract.refusal import ContractError
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, optimality_check, other_path_cards, plan_card

@@ -6,8 +6,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from relguide.contract.bodies import Anchor, Position, SituationBody
+from relguide.contract.bodies import SituationBody
 from relguide.contract.compass import compass
+from relguide.contract.places import Anchor, Position
 from relguide.contract.refusal import Strict
 from relguide.maps.contours import Floats
 from relguide.maps.isochrones import (
@@ -48,6 +49,10 @@ INTENT = (
     "The leader is taken to have been on its final leg from the start, and the slot to open when "
     "the leader gets there; each plan keeps the minimum separation from the leader as it really "
     "flies."
+)
+AMID = (
+    "Other traffic, cells and heights are not counted. Amid the others a plan may take longer than "
+    "the time given; where height keeps the leader apart it may be faster."
 )
 DRAWN = (
     "Each vertex of a line is on its level to 0.1 s; lines are cut where the time jumps. Each "
@@ -254,5 +259,6 @@ def _notes(area: Isochrones, situation: Situation, *, exact: bool) -> list[str]:
         ASKED if asked else EXACT,
         *((SEARCHED if exact else BOUND,) if limited else ()),
         *((INTENT,) if situation.leader.intent else ()),
+        *((AMID,) if situation.others or situation.pursuer.altitude is not None else ()),
         DRAWN,
     ]

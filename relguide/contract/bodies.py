@@ -1,24 +1,34 @@
 """A situation as outsiders send it: strict shapes with units in their names, and their meaning.
 
-Positions are x, y of the world frame or latitude, longitude (WGS84), in both aircraft alike. In the
-second case the world frame is the plane that touches the earth at the leader, and headings, which
-are clockwise from true north where the aircraft is, are turned by the angle between its meridian
-and the plane's north. Wind and intent are taken at the leader.
+Positions are x, y of the world frame or latitude, longitude (WGS84), in both aircraft alike, and in
+all that they keep clear of. In the second case the world frame is the plane that touches the earth
+at the leader, and headings, which are clockwise from true north where the aircraft is, are turned
+by the angle between its meridian and the plane's north. Wind is taken at the leader.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from math import degrees, hypot, isfinite, radians
+from collections.abc import Mapping
+from math import degrees, radians
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
 from relguide.contract.accepted import Accepted
 from relguide.contract.compass import compass, heading_of
+from relguide.contract.intent_bodies import Bank, Intent, intent_from_body
+from relguide.contract.other_bodies import CellList, Distance, Tas, TrafficList, others_from_body
+from relguide.contract.places import (
+    Altitude,
+    Anchor,
+    Latitude,
+    Longitude,
+    Position,
+    Unanchored,
+    place_near,
+    which_position,
+)
 from relguide.contract.refusal import ContractError, Strict, parse
 from relguide.contract.wire import to_wire
 from relguide.flying.plan_documents import (
-    Direction,
     FlownCard,
     NotFlownCard,
     OtherPathCard,
@@ -27,9 +37,7 @@ from relguide.flying.plan_documents import (
 from relguide.planning import limits
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.frames import LocalPlane
-from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.situation import Situation
-from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.planning.wind import CALM, Wind, wind_from
 
 if TYPE_CHECKING:
@@ -39,21 +47,6 @@ MAX_ID = 200
 """Longest accepted `id` [characters]."""
 MAX_INTEGER = 2**53 - 1
 """Largest integer that every reader of JSON keeps exact."""
-
-Position = Annotated[float, Accepted(limits.POSITION)]
-Tas = Annotated[float, Accepted(limits.TAS)]
-Bank = Annotated[float, Accepted(limits.BANK)]
-Distance = Annotated[float, Accepted(limits.DISTANCE)]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Unanchored:
-    """Positions came as x, y: there are no latitudes to give back."""
-
-
-Anchor = LocalPlane | Unanchored
-UNANCHORED = Unanchored()
-"""How the world frame lies on the earth."""
 
 
 class LocalPursuer(Strict):
@@ -69,14 +62,16 @@ class LocalPursuer(Strict):
     """True airspeed, kept constant."""
     max_bank_deg: Bank
     """Bank of its turns."""
+    altitude_m: Altitude | None = None
+    """Pressure altitude; if left out it is not known, and height keeps nothing apart."""
 
 
 class GeodeticPursuer(Strict):
     """The aircraft that is guided, at t = 0, placed on the earth (WGS84)."""
 
-    lat_deg: Annotated[float, Field(ge=-90.0, le=90.0)]
+    lat_deg: Latitude
     """WGS84."""
-    lon_deg: Annotated[float, Field(ge=-180.0, le=180.0)]
+    lon_deg: Longitude
     """WGS84."""
     heading_deg: float
     """Clockwise from true north."""
@@ -84,50 +79,8 @@ class GeodeticPursuer(Strict):
     """True airspeed, kept constant."""
     max_bank_deg: Bank
     """Bank of its turns."""
-
-
-class StraightPiece(Strict):
-    """A piece of intent: keep the heading."""
-
-    straight_s: Annotated[float, Accepted(limits.PIECE)]
-    """For how long."""
-
-
-class TurnPiece(Strict):
-    """A piece of intent: turn at constant bank."""
-
-    turn_to_heading_deg: float
-    """Heading to roll out on, clockwise from true north."""
-    direction: Direction
-    """Which way round."""
-    bank_deg: Bank
-    """Bank of the turn."""
-
-
-_TURN_FIELDS = frozenset(TurnPiece.model_fields)
-
-
-def _which_piece(value: Any) -> str:
-    if isinstance(value, Mapping):
-        turns = not value.keys().isdisjoint(_TURN_FIELDS)
-    else:
-        turns = isinstance(value, TurnPiece)
-    return "#turn" if turns else "#straight"
-
-
-def _which_position(value: Any) -> str:
-    if isinstance(value, Mapping):
-        geodetic = "lat_deg" in value or "lon_deg" in value
-    else:
-        geodetic = isinstance(value, GeodeticPursuer | GeodeticLeader)
-    return "#geodetic" if geodetic else "#local"
-
-
-Piece = Annotated[
-    Annotated[StraightPiece, Tag("#straight")] | Annotated[TurnPiece, Tag("#turn")],
-    Discriminator(_which_piece),
-]
-Intent = Annotated[list[Piece], Field(max_length=limits.MAX_PIECES)]
+    altitude_m: Altitude | None = None
+    """Pressure altitude; if left out it is not known, and height keeps nothing apart."""
 
 
 class LocalLeader(Strict):
@@ -143,14 +96,16 @@ class LocalLeader(Strict):
     """True airspeed, kept constant."""
     intent: Annotated[Intent, Field(default_factory=list)]
     """Pieces to come; what follows the last is flown for ever."""
+    altitude_m: Altitude | None = None
+    """Pressure altitude; if left out it is not known, and height keeps nothing apart."""
 
 
 class GeodeticLeader(Strict):
     """The aircraft to be joined, at t = 0, placed on the earth (WGS84)."""
 
-    lat_deg: Annotated[float, Field(ge=-90.0, le=90.0)]
+    lat_deg: Latitude
     """WGS84."""
-    lon_deg: Annotated[float, Field(ge=-180.0, le=180.0)]
+    lon_deg: Longitude
     """WGS84."""
     heading_deg: float
     """Clockwise from true north."""
@@ -158,6 +113,8 @@ class GeodeticLeader(Strict):
     """True airspeed, kept constant."""
     intent: Annotated[Intent, Field(default_factory=list)]
     """Pieces to come; what follows the last is flown for ever."""
+    altitude_m: Altitude | None = None
+    """Pressure altitude; if left out it is not known, and height keeps nothing apart."""
 
 
 class WindBody(Strict):
@@ -174,12 +131,12 @@ class SituationBody(Strict):
 
     pursuer: Annotated[
         Annotated[LocalPursuer, Tag("#local")] | Annotated[GeodeticPursuer, Tag("#geodetic")],
-        Discriminator(_which_position),
+        Discriminator(which_position),
     ]
     """The aircraft that is guided."""
     leader: Annotated[
         Annotated[LocalLeader, Tag("#local")] | Annotated[GeodeticLeader, Tag("#geodetic")],
-        Discriminator(_which_position),
+        Discriminator(which_position),
     ]
     """The aircraft to be joined."""
     slot_distance_m: Distance
@@ -188,6 +145,10 @@ class SituationBody(Strict):
     """d_min: how close the two may come; at most D."""
     wind: WindBody = WindBody(from_deg=0.0, speed_mps=0.0)
     """Left out: calm."""
+    traffic: Annotated[TrafficList, Field(default_factory=list)]
+    """Other aircraft, to be kept clear of until two minutes after joining."""
+    cells: Annotated[CellList, Field(default_factory=list)]
+    """Weather, to be kept out of as long."""
 
 
 def _which_id(value: Any) -> str:
@@ -227,6 +188,7 @@ def situation_from_body(body: SituationBody) -> tuple[Situation, Anchor]:
     if not limits.CLEARANCE.admits(body.slot_distance_m - body.min_separation_m):
         wrong = limits.too_close_a_slot(body.slot_distance_m, body.min_separation_m)
         raise ContractError([("slot_distance_m", wrong)])
+    others = others_from_body(body.traffic, body.cells, anchor, body.min_separation_m)
     try:
         return (
             Situation(
@@ -235,6 +197,7 @@ def situation_from_body(body: SituationBody) -> tuple[Situation, Anchor]:
                 slot_distance=body.slot_distance_m,
                 min_separation=body.min_separation_m,
                 wind=wind_of(body.wind.from_deg, body.wind.speed_mps),
+                others=others,
             ),
             anchor,
         )
@@ -285,10 +248,10 @@ def _aircraft(body: SituationBody) -> tuple[Pursuer, Leader, Anchor]:
             )
         case GeodeticPursuer() as p, GeodeticLeader() as l:
             plane = LocalPlane(l.lat_deg, l.lon_deg)
-            x, y = _project_near(plane, p)
-            heading = heading_of(p.heading_deg + degrees(plane.meridian(p.lat_deg, p.lon_deg)))
+            place = place_near(plane, p.lat_deg, p.lon_deg, "pursuer")
+            heading = heading_of(p.heading_deg + place.turned_deg)
             return (
-                _pursuer(p, x, y, heading),
+                _pursuer(p, place.x, place.y, heading),
                 _leader(l, 0.0, 0.0, heading_of(l.heading_deg)),
                 plane,
             )
@@ -298,42 +261,30 @@ def _aircraft(body: SituationBody) -> tuple[Pursuer, Leader, Anchor]:
 
 
 def _pursuer(body: LocalPursuer | GeodeticPursuer, x: float, y: float, heading: float) -> Pursuer:
-    return Pursuer(x=x, y=y, heading=heading, tas=body.tas_mps, max_bank=radians(body.max_bank_deg))
+    return Pursuer(
+        x=x,
+        y=y,
+        heading=heading,
+        tas=body.tas_mps,
+        max_bank=radians(body.max_bank_deg),
+        altitude=body.altitude_m,
+    )
 
 
 def _leader(body: LocalLeader | GeodeticLeader, x: float, y: float, heading: float) -> Leader:
-    return Leader(x=x, y=y, heading=heading, tas=body.tas_mps, intent=intent_from_body(body.intent))
-
-
-def intent_from_body(pieces: Sequence[StraightPiece | TurnPiece]) -> tuple[IntentPiece, ...]:
-    """What a leader declares or flies, its headings from true north at the leader."""
-    return tuple(map(_piece, pieces))
-
-
-def _piece(body: StraightPiece | TurnPiece) -> IntentPiece:
-    match body:
-        case StraightPiece():
-            return FlyStraight(duration=body.straight_s)
-        case TurnPiece():
-            return TurnTo(
-                heading=heading_of(body.turn_to_heading_deg),
-                turn=LEFT if body.direction == "left" else RIGHT,
-                bank=radians(body.bank_deg),
-            )
+    return Leader(
+        x=x,
+        y=y,
+        heading=heading,
+        tas=body.tas_mps,
+        intent=intent_from_body(body.intent),
+        altitude=body.altitude_m,
+    )
 
 
 def wind_of(from_deg: float, speed: float) -> Wind:
     """A wind as reports give it: from where [°], and its speed [m/s]."""
     return wind_from(heading_of(from_deg), speed) if speed != 0.0 else CALM
-
-
-def _project_near(plane: LocalPlane, pursuer: GeodeticPursuer) -> tuple[float, float]:
-    x, y = plane.to_local(pursuer.lat_deg, pursuer.lon_deg)
-    # at the antipode the projection gives infinity
-    if not (isfinite(x) and isfinite(y)) or hypot(x, y) > limits.POSITION.high:
-        message = f"must lie within {limits.POSITION.high / 1000.0:g} km of the leader."
-        raise ContractError([("pursuer.lat_deg, pursuer.lon_deg", message)])
-    return x, y
 
 
 def _point_to_wire(point: dict[str, Any], plane: LocalPlane) -> dict[str, Any]:

@@ -7,12 +7,7 @@ from typing import Any, Literal, NamedTuple
 import orjson
 
 from relguide.contract.answers import Include, answer
-from relguide.contract.bodies import (
-    MAX_ID,
-    MAX_INTEGER,
-    NamedSituationBody,
-    situation_from_body,
-)
+from relguide.contract.bodies import MAX_ID, MAX_INTEGER, NamedSituationBody, situation_from_body
 from relguide.contract.columns import Row, columns_of, row_of, take
 from relguide.contract.refusal import ContractError, loads, make_printable, parse
 from relguide.planning.acceptance import ask

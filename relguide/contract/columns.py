@@ -8,14 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.contract.bodies import (
-    LocalLeader,
-    LocalPursuer,
-    SituationBody,
-    StraightPiece,
-    TurnPiece,
-)
+from relguide.contract.bodies import LocalLeader, LocalPursuer, SituationBody
 from relguide.contract.compass import heading_of
+from relguide.contract.intent_bodies import LevelChangePiece, StraightPiece, TurnPiece
 from relguide.planning import limits
 from relguide.planning.batch import Floats, Situations
 from relguide.planning.trajectory import LEFT, RIGHT
@@ -34,9 +29,17 @@ class Row(NamedTuple):
 
 
 def row_of(body: SituationBody) -> Row | None:
-    """The numbers of a situation; `None` if its positions are latitudes and longitudes."""
+    """The numbers of a situation; `None` if it has more than rows hold.
+
+    That is positions on the earth, heights, other traffic or cells.
+    """
+    if body.traffic or body.cells:
+        return None
     match body.pursuer, body.leader:
-        case LocalPursuer() as p, LocalLeader() as l:
+        case LocalPursuer(altitude_m=None) as p, LocalLeader(altitude_m=None) as l:
+            intent = [piece for piece in l.intent if not isinstance(piece, LevelChangePiece)]
+            if len(intent) < len(l.intent):
+                return None
             return Row(
                 (
                     p.x_m, p.y_m, p.heading_deg, p.tas_mps, p.max_bank_deg,
@@ -44,7 +47,7 @@ def row_of(body: SituationBody) -> Row | None:
                     body.slot_distance_m, body.min_separation_m,
                     body.wind.from_deg, body.wind.speed_mps,
                 ),
-                [_amounts(piece) for piece in l.intent],
+                [_amounts(piece) for piece in intent],
             )  # fmt: skip
         case _:
             return None

@@ -7,7 +7,8 @@ cell is a field that is left out.
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
-from typing import Any, Literal, get_origin
+from types import UnionType
+from typing import Any, Literal, get_args, get_origin
 
 import orjson
 from pydantic import BaseModel
@@ -38,8 +39,12 @@ def _paths(name: str, *models: type[BaseModel]) -> Iterator[str]:
             yield f"{name}.{field}"
 
 
-TEXTS = ("id", "leader.intent")
+LISTS = ("leader.intent", "traffic", "cells")
+"""Columns of a situation that hold JSON text."""
+TEXTS = ("id", *LISTS)
 """Columns of a situation that do not hold numbers."""
+AMID = ("pursuer.altitude_m", "leader.altitude_m", "traffic", "cells")
+"""Columns of a situation to which answers say more."""
 SITUATION_COLUMNS = tuple(
     dict.fromkeys(
         (
@@ -49,6 +54,8 @@ SITUATION_COLUMNS = tuple(
             "slot_distance_m",
             "min_separation_m",
             *_paths("wind", WindBody),
+            "traffic",
+            "cells",
         )
     )
 )
@@ -72,6 +79,11 @@ def check_columns(header: Sequence[str], file: str) -> None:
         raise ValueError(f"{file} has the column {', '.join(twice)} more than once.")
 
 
+def is_amid(header: Sequence[str]) -> bool:
+    """Whether a file with these columns may have other traffic, cells or heights."""
+    return not set(AMID).isdisjoint(header)
+
+
 def situation_of_row(header: Sequence[str], cells: Sequence[Any]) -> dict[str, Any]:
     """A row as the JSON object that it stands for, yet to be checked.
 
@@ -87,8 +99,8 @@ def situation_of_row(header: Sequence[str], cells: Sequence[Any]) -> dict[str, A
         if cell is None or cell == "":
             continue
         value = cell
-        if name == "leader.intent":
-            value = _intent(cell)
+        if name in LISTS:
+            value = _list(name, cell)
         elif isinstance(cell, str) and name not in TEXTS:
             value = _number(cell)
         outer, dot, inner = name.partition(".")
@@ -99,20 +111,22 @@ def situation_of_row(header: Sequence[str], cells: Sequence[Any]) -> dict[str, A
     return body
 
 
-def _intent(cell: object) -> object:
-    """The pieces of an intent: JSON text, or a list of rows with a column for each field."""
+def _list(name: str, cell: object) -> object:
+    """What a list holds: JSON text, or rows with a column for each field."""
     if isinstance(cell, str):
         try:
             return loads(cell)
         except ContractError as error:
-            raise ContractError([("leader.intent", str(error))]) from None
+            raise ContractError([(name, str(error))]) from None
+    return _without_empty(cell)
+
+
+def _without_empty(cell: object) -> object:
+    """Rows within rows, without the fields that are left out in each."""
     if isinstance(cell, list):
-        return [
-            {name: value for name, value in piece.items() if value is not None}
-            if isinstance(piece, Mapping)
-            else piece
-            for piece in cell
-        ]
+        return [_without_empty(part) for part in cell]
+    if isinstance(cell, Mapping):
+        return {name: _without_empty(part) for name, part in cell.items() if part is not None}
     return cell
 
 
@@ -124,12 +138,16 @@ def _number(cell: str) -> float | str:
         return cell
 
 
-def _leaves(card: type[Any], path: str = "") -> Iterator[tuple[str, Kind]]:
-    """The columns that a card of an answer makes."""
+def _leaves(card: type[Any], path: str = "", *, amid: bool = False) -> Iterator[tuple[str, Kind]]:
+    """The columns that a card of an answer makes; `amid` others or at heights, all of them."""
     for field in wire_fields(card):
+        if field.left_out and not amid:
+            continue
         name, annotation = f"{path}{field.wire_name}", field.annotation
+        if isinstance(annotation, UnionType):  # a card, or none
+            annotation = get_args(annotation)[0]
         if is_dataclass(annotation):
-            yield from _leaves(annotation, f"{name}.")  # type: ignore[arg-type]
+            yield from _leaves(annotation, f"{name}.", amid=amid)  # type: ignore[arg-type]
         elif get_origin(annotation) is tuple:
             yield name, "json"
         else:
@@ -148,27 +166,29 @@ _OF_TIMES: dict[str, Kind] = {
 """Columns of a plan's time alone."""
 
 
-def answer_columns(fields: Fields, include: Collection[Include]) -> dict[str, Kind]:
+def answer_columns(
+    fields: Fields, include: Collection[Include], *, amid: bool = False
+) -> dict[str, Kind]:
     """The columns of answers: their names in order, and what they hold.
 
     Args:
         fields: how much of each plan.
         include: what is added to it.
+        amid: whether situations may have other traffic, cells, or heights.
     """
     columns = dict(_FIRST)
     if fields == "times":
-        columns |= _OF_TIMES
-    else:
-        columns |= dict(_leaves(PlanCard))
-        if "alternatives" not in include:
-            del columns["alternatives"]
-        if "paths" in include:
-            columns["others"] = "json"
-        if "flown" in include:
-            columns |= dict(_leaves(FlownCard, "flown."))
-        if "optimality" in include:
-            columns |= dict(_leaves(OptimalityCheck, "optimality."))
-    return columns | dict(_leaves(NoPlanCard))
+        return columns | _OF_TIMES | dict(_leaves(NoPlanCard))
+    columns |= dict(_leaves(PlanCard, amid=amid))
+    if "alternatives" not in include:
+        del columns["alternatives"]
+    if "paths" in include:
+        columns["others"] = "json"
+    if "flown" in include:
+        columns |= dict(_leaves(FlownCard, "flown."))
+    if "optimality" in include:
+        columns |= dict(_leaves(OptimalityCheck, "optimality."))
+    return columns | dict(_leaves(NoPlanCard, amid=amid))
 
 
 def cells_of_answers(

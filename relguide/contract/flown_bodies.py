@@ -10,13 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 
 from relguide.contract.accepted import Accepted
-from relguide.contract.bodies import (
-    Anchor,
-    NamedSituationBody,
-    WindBody,
-    situation_from_body,
-    wind_of,
-)
+from relguide.contract.bodies import NamedSituationBody, WindBody, situation_from_body, wind_of
+from relguide.contract.places import Anchor
 from relguide.contract.refusal import ContractError, Strict
 from relguide.flying.air import GUSTS, ISA_DEVIATION, Air
 from relguide.flying.surveillance import (

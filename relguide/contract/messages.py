@@ -9,7 +9,7 @@ from dataclasses import fields, is_dataclass, make_dataclass
 from enum import Enum
 from functools import cache, reduce
 from operator import or_
-from types import UnionType
+from types import NoneType, UnionType
 from typing import (
     Annotated,
     Any,
@@ -32,8 +32,9 @@ from pydantic import (
     model_validator,
 )
 
-from relguide.contract.bodies import Intent, Tas
 from relguide.contract.flown_bodies import FlownSituationBody
+from relguide.contract.intent_bodies import Intent
+from relguide.contract.other_bodies import Tas
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.aircraft_documents import ReferenceCard
@@ -76,7 +77,14 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
     if (known := _MODELS.get(document_type)) is not None:
         return known
     members: dict[str, Any] = {
-        f.wire_name: (_json_type(f.annotation), Field(f.missing, description=f.doc or None))
+        f.wire_name: (
+            _json_type(f.annotation),
+            Field(
+                f.missing,
+                description=f.doc or None,
+                json_schema_extra=_no_default if f.left_out else None,
+            ),
+        )
         for f in wire_fields(document_type)
     }
     if document_type is PlanCard:
@@ -125,7 +133,9 @@ def _json_type(annotation: Any) -> Any:
     if origin is tuple:
         return list[_json_type(get_args(annotation)[0])]  # type: ignore[misc]
     if origin in (UnionType, Union):
-        members = get_args(annotation)
+        members = tuple(m for m in get_args(annotation) if m is not NoneType)
+        if len(members) == 1:
+            return _json_type(members[0])  # it is left out where there is none, never null
         (tag,) = [t for t in _TAGS if all(_tag_field(m) == t for m in members)]
         return Annotated[reduce(or_, map(model_of, members)), Field(discriminator=tag)]
     if is_dataclass(annotation):
@@ -163,6 +173,8 @@ Rate = Annotated[float, Field(ge=1.0, le=60.0)]
 """Accepted simulated seconds per second."""
 Seed = Annotated[int, Field(ge=0, le=2**32 - 1)]
 """Accepted seeds of a flight's random numbers."""
+Ident = Annotated[str, Field(max_length=100)]
+"""Of an aircraft of the flight."""
 SpacingTime = Annotated[float, Field(gt=0.0, le=SPACING.high)]
 """Accepted times behind the leader [s]."""
 
@@ -439,6 +451,8 @@ class LeaderHeadingCommand(Strict):
     """Clockwise from true north."""
     direction: Direction | None = None
     """Which way round; if left out, the shorter."""
+    ident: Ident = ""
+    """Of the aircraft; if left out, the first link's leader."""
 
 
 class LeaderSpeedCommand(Strict):
@@ -448,6 +462,8 @@ class LeaderSpeedCommand(Strict):
     """Which command it is."""
     tas_mps: Tas
     """True airspeed."""
+    ident: Ident = ""
+    """Of the aircraft; if left out, the first link's leader."""
 
 
 class IntentKnownCommand(Strict):
@@ -457,6 +473,8 @@ class IntentKnownCommand(Strict):
     """Which command it is."""
     known: bool
     """Whether the pursuer knows it from now on."""
+    ident: Ident = ""
+    """Of the leader; if left out, the first link's."""
 
 
 class LeaderDataCommand(Strict):
@@ -466,6 +484,8 @@ class LeaderDataCommand(Strict):
     """Which command it is."""
     received: bool
     """Whether they are received from now on."""
+    ident: Ident = ""
+    """Of the pursuer; if left out, the first link's."""
 
 
 class PursuerHeadingCommand(Strict):
@@ -475,6 +495,8 @@ class PursuerHeadingCommand(Strict):
     """Which command it is."""
     heading_deg: float
     """Clockwise from true north."""
+    ident: Ident = ""
+    """Of the pursuer; if left out, the first link's."""
 
 
 class SetEngagementCommand(Strict):
@@ -484,6 +506,8 @@ class SetEngagementCommand(Strict):
     """Which command it is."""
     engagement: Engagement
     """How far guidance is engaged from now on."""
+    ident: Ident = ""
+    """Of the pursuer; if left out, the first link's."""
 
 
 Command = Annotated[

@@ -1,8 +1,9 @@
-"""Orders to the leader of a flight, read from JSON lines, and given to it at their times.
+"""Orders to the aircraft of a flight, read from JSON lines, and given to them at their times.
 
 {"t_s": 60, "intent_known": false}
 {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
 {"t_s": 950, "leader_tas_mps": 100}
+{"t_s": 950, "leader_tas_mps": 210, "ident": "BAW12"}
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -10,16 +11,18 @@ from typing import IO, Annotated, NamedTuple
 
 from pydantic import Field
 
-from relguide.contract.bodies import Tas
 from relguide.contract.compass import heading_of
+from relguide.contract.other_bodies import Tas
 from relguide.contract.refusal import ContractError, Strict, loads, parse
 from relguide.flying.leaders.declared import TurnChoice
-from relguide.flying.orders import Command, IntentKnown, LeaderHeading, LeaderSpeed
+from relguide.flying.orders import Command, IntentKnown, LeaderHeading, LeaderSpeed, order_fault
+from relguide.flying.world import World
 from relguide.units import Second
 
 MAX_LINE = 10_000
 """Longest line that is read [bytes]; an order has some 70."""
 
+Ident = Annotated[str, Field(max_length=100)]
 OrderTime = Annotated[float, Field(ge=0.0)]
 
 
@@ -32,10 +35,13 @@ class HeadingOrder(Strict):
     """Clockwise from true north."""
     direction: TurnChoice = "shorter"
     """Which way round."""
+    ident: Ident = ""
+    """Who is to do so; empty for the first link's leader."""
 
     def command(self) -> Command:
         """What the flight is given."""
-        return LeaderHeading(heading=heading_of(self.leader_heading_deg), direction=self.direction)
+        heading = heading_of(self.leader_heading_deg)
+        return LeaderHeading(heading=heading, direction=self.direction, ident=self.ident)
 
 
 class SpeedOrder(Strict):
@@ -45,10 +51,12 @@ class SpeedOrder(Strict):
     """Flight time at which it is given."""
     leader_tas_mps: Tas
     """True airspeed."""
+    ident: Ident = ""
+    """Who is to do so; empty for the first link's leader."""
 
     def command(self) -> Command:
         """What the flight is given."""
-        return LeaderSpeed(tas=self.leader_tas_mps)
+        return LeaderSpeed(tas=self.leader_tas_mps, ident=self.ident)
 
 
 class IntentOrder(Strict):
@@ -57,10 +65,12 @@ class IntentOrder(Strict):
     t_s: OrderTime
     """Flight time at which that happens."""
     intent_known: bool
+    ident: Ident = ""
+    """Whose it is; empty for the first link's leader."""
 
     def command(self) -> Command:
         """What the flight is given."""
-        return IntentKnown(known=self.intent_known)
+        return IntentKnown(known=self.intent_known, ident=self.ident)
 
 
 _MODELS: dict[str, type[HeadingOrder] | type[SpeedOrder] | type[IntentOrder]] = {
@@ -112,6 +122,19 @@ def commands_of(orders: Sequence[Order]) -> Callable[[Second], Iterable[Command]
             yield left.pop(0).command
 
     return due
+
+
+def expect_flying(orders: Sequence[Order], world: World) -> None:
+    """Refuse an order to an aircraft that does not fly, or cannot be given it.
+
+    Raises:
+        ValueError: for the first such order, with its time and what would be right.
+    """
+    links = [(link.pursuer, link.leader) for link in world.links]
+    for order in orders:
+        fault = order_fault(order.command, [one.ident for one in world.aircraft], links)
+        if fault:
+            raise ValueError(f"The order at {order.t:.12g} s: {fault}")
 
 
 def _lines(stream: IO[bytes]) -> Iterator[bytes]:

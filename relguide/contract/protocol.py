@@ -4,7 +4,8 @@ from hashlib import sha256
 from typing import Any, Literal
 
 from relguide.contract.area_bodies import AreaAnswer, AreaRequest
-from relguide.contract.bodies import Piece, SituationBody
+from relguide.contract.bodies import SituationBody
+from relguide.contract.intent_bodies import Piece
 from relguide.contract.messages import (
     AlternativeModel,
     Command,

@@ -25,7 +25,7 @@ from pydantic_core import to_json
 
 from relguide.contract.compass import compass
 from relguide.contract.docs import field_docs
-from relguide.flying.plan_documents import ADDED
+from relguide.flying.plan_documents import ADDED, LEFT_OUT
 
 if TYPE_CHECKING:  # most of what can be written is never needed where plans are made
     from relguide.flying.aircraft_documents import (
@@ -108,6 +108,10 @@ class WireField:
     numbers, that of each member."""
     missing: Any = ...
     """JSON value where a recording of before has none; `...` for a field that is always there."""
+    left_out: bool = False
+    """Whether it is written only where it is not its default."""
+    default: Any = None
+    """In Python, of a field that may be left out."""
 
     @property
     def doc(self) -> str:
@@ -208,10 +212,19 @@ def _encoder(document_type: type[Any]) -> Convert:
     if (known := _ENCODERS.get(document_type)) is not None:
         return known
     every = wire_fields(document_type)
-    members = ", ".join(f"{f.wire_name!r}: encode_{f.name}(document.{f.name})" for f in every)
     encoders = {f"encode_{f.name}": f.encode for f in every}
-    made: Convert = eval(f"lambda document: {{{members}}}", encoders)
+    encoders |= {f"default_{f.name}": f.default for f in every if f.left_out}
+    made: Convert = eval(f"lambda document: {{{', '.join(map(_member, every))}}}", encoders)
     return _ENCODERS.setdefault(document_type, made)
+
+
+def _member(field: WireField) -> str:
+    """The code of one field."""
+    member = f"{field.wire_name!r}: encode_{field.name}(document.{field.name})"
+    if field.left_out:
+        is_default = f"document.{field.name} == default_{field.name}"
+        return f"**({{}} if {is_default} else {{{member}}})"
+    return member
 
 
 def _describe(field: Field[Any], hint: Any, owner: type[Any]) -> WireField:
@@ -229,8 +242,16 @@ def _describe(field: Field[Any], hint: Any, owner: type[Any]) -> WireField:
         owner=owner,
         encode=encode,
         decode_number=decode,
-        missing=encode(field.default) if field.metadata == ADDED else ...,
+        missing=_missing(field, encode),
+        left_out=field.metadata == LEFT_OUT,
+        default=field.default,
     )
+
+
+def _missing(field: Field[Any], encode: Convert) -> Any:
+    if field.metadata not in (ADDED, LEFT_OUT):
+        return ...
+    return None if field.default is None else encode(field.default)
 
 
 def _conversion(name: str, annotation: Any, unit: str) -> tuple[Convert, Convert]:

@@ -15,16 +15,23 @@ from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     ArrivalCard,
     BoundarySegment,
+    ConflictCard,
     Direction,
     EarlyAlternativeCard,
+    LaterRemedy,
+    LevelRemedy,
     MissingAlternativeCard,
     NoPlanCard,
     OptimalityCard,
     OtherPathCard,
+    OtherSeparationCard,
     PathPoint,
     PathSegment,
     PlanCard,
+    RemedyCard,
     Separation,
+    SideRemedy,
+    SlotDistanceRemedy,
     StraightSegment,
     TurnSegment,
     UnsafeAlternativeCard,
@@ -33,7 +40,7 @@ from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.turn import bank_for_turn_radius
 from relguide.planning.arrival import Arrival
 from relguide.planning.certificate import Certificate
-from relguide.planning.plan import NoPlan, Plan
+from relguide.planning.plan import Conflict, NoPlan, Plan, Remedy
 from relguide.planning.trajectory import (
     LEFT,
     Arc,
@@ -119,6 +126,16 @@ def separation_card(certificate: Certificate) -> Separation:
         least=certificate.least_separation,
         at=certificate.at_time,
         proved_above=certificate.lower_bound,
+        others=tuple(
+            OtherSeparationCard(
+                ident=other.ident,
+                least=other.least_separation,
+                at=other.at_time,
+                proved_above=other.lower_bound,
+                min_separation=other.min_separation,
+            )
+            for other in certificate.others
+        ),
     )
 
 
@@ -161,7 +178,39 @@ def optimality_check(report: "OptimalityReport") -> "OptimalityCheck":
 
 def no_plan_card(answer: NoPlan) -> NoPlanCard:
     """Why there is no plan."""
-    return NoPlanCard(reason=answer.reason, message=answer.message, lower_bound=answer.lower_bound)
+    return NoPlanCard(
+        reason=answer.reason,
+        message=answer.message,
+        lower_bound=answer.lower_bound,
+        conflict=None if answer.conflict is None else _conflict_card(answer.conflict),
+        remedies=tuple(map(_remedy_card, answer.remedies)),
+    )
+
+
+def _conflict_card(conflict: Conflict) -> ConflictCard:
+    return ConflictCard(
+        ident=conflict.ident,
+        at=conflict.at_time,
+        least=conflict.least_separation,
+        min_separation=conflict.min_separation,
+    )
+
+
+def _remedy_card(remedy: Remedy) -> RemedyCard:
+    time, message = remedy.time_to_converge, remedy.message
+    match remedy.kind:
+        case "slot_distance":
+            return SlotDistanceRemedy(
+                slot_distance=remedy.value, time_to_converge=time, message=message
+            )
+        case "later":
+            return LaterRemedy(later=remedy.value, time_to_converge=time, message=message)
+        case "level":
+            return LevelRemedy(altitude=remedy.value, time_to_converge=time, message=message)
+        case "side":
+            return SideRemedy(time_to_converge=time, message=message)
+        case _:
+            assert_never(remedy.kind)
 
 
 def path_point(pose: Pose, t: float, wind: Wind, start_time: float = 0.0) -> PathPoint:
@@ -278,7 +327,7 @@ def _alternative_card(other: "AnyAlternative", later: Second) -> AnyAlternativeC
         case _:
             assert_never(other)
     match other.rejected:
-        case LosesSeparation(least_separation=least, at_time=at):
+        case LosesSeparation(least_separation=least, at_time=at, ident=ident):
             return UnsafeAlternativeCard(
                 word=candidate.word,
                 time_to_converge=candidate.time_to_converge + later,
@@ -287,6 +336,7 @@ def _alternative_card(other: "AnyAlternative", later: Second) -> AnyAlternativeC
                 side=side,
                 least_separation=least,
                 at=at + later,
+                ident=ident,
                 why=other.why,
             )
         case Slower() | AsFast() | Faster():

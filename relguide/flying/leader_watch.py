@@ -47,7 +47,9 @@ def doubt_leader(one: Pursuit, fleet: Fleet, t: Second) -> Iterator[LeaderChange
         one.declared, one.known = None, False
         message = "The leader does not fly what it declared; its intent is no longer relied on."
         one.view = one.view._replace(changed="The leader broke its word.", changed_at=t)
-        yield LeaderChanged(t=t, ident=one.names.leader, change="intent_broken", message=message)
+        if not one.queued:  # the first of a queue says it for all
+            ident = one.names.leader
+            yield LeaderChanged(t=t, ident=ident, change="intent_broken", message=message)
     else:
         one.declared.fly_second(t)
 
@@ -63,7 +65,7 @@ def watch_leader(one: Pursuit, seen: Belief) -> Iterator[LeaderChanged | LeaderR
 def expected_route(one: Pursuit, seen: Belief) -> LeaderRoute:
     """What the leader is expected to fly, as a document."""
     return leader_route(
-        seen.t, one.names, seen.leader_after(0.0), intent_known=seen.intent_known, wind=seen.wind
+        seen.t, one.watched, seen.leader_after(0.0), intent_known=seen.intent_known, wind=seen.wind
     )
 
 
@@ -86,7 +88,8 @@ def _notice_turn(one: Pursuit, seen: Belief) -> Iterator[LeaderChanged]:
         message = f"The leader turns {side} and its intent is not known: the join is uncertain."
     said = f"The leader turned {side} unannounced."
     one.view = one.view._replace(changed=said, changed_at=seen.t)
-    yield LeaderChanged(t=seen.t, ident=one.names.leader, change="heading", message=message)
+    if not one.queued:
+        yield LeaderChanged(t=seen.t, ident=one.names.leader, change="heading", message=message)
 
 
 def _route_is_news(shown: Belief, seen: Belief) -> bool:

@@ -65,7 +65,7 @@ def count_loss(metrics: FlightMetrics, least: Metre) -> FlightMetrics:
 
 def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
     """Count the second flown from t on; whether separation was lost in it."""
-    least = fleet.least_apart(one.pursuer, one.leader)
+    least = fleet.least_apart(one.pursuer, one.ahead)
     row = fleet.tallies[one.pursuer]
     metrics = one.metrics._replace(least_separation=min(least, one.metrics.least_separation))
     if not metrics.joined:
@@ -82,7 +82,7 @@ def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
     one.metrics = metrics
     limit = one.link.min_separation
     if least >= limit:
-        one.lost = one.lost and fleet.apart(one.pursuer, one.leader) < limit
+        one.lost = one.lost and fleet.apart(one.pursuer, one.ahead) < limit
         return []
     said = [] if one.lost else [_loss(one, fleet, t)]
     for loss in said:
@@ -116,7 +116,7 @@ def _announced(metrics: FlightMetrics) -> tuple[Second, ...]:
 
 def _first_below(fleet: Fleet, one: Pursuit, limit: Metre) -> tuple[int, Metre]:
     """At which step of the last second the separation is below d_min, and what it is."""
-    apart = np.hypot(*(fleet.trace[one.pursuer, :, :2] - fleet.trace[one.leader, :, :2]).T)
+    apart = np.hypot(*(fleet.trace[one.pursuer, :, :2] - fleet.trace[one.ahead, :, :2]).T)
     below = np.flatnonzero(apart < limit)
     k = int(below[0]) if len(below) else int(np.argmin(apart))
     return min(k, fleet.steps - 1), float(apart[k])

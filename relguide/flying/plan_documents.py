@@ -3,7 +3,7 @@
 Units, frames and times as in `documents`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from relguide.planning.plan import Proof, Reason
@@ -13,6 +13,8 @@ Direction = Literal["left", "right"]
 Passes = Literal["behind", "ahead"]
 ADDED = {"added": True}
 """Metadata of a field that documents did not always have: without it they read as its default."""
+LEFT_OUT = {"left_out": True}
+"""Metadata of a field that is written only where it is not its default: else there is nothing."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,6 +91,36 @@ PathSegment = TurnSegment | StraightSegment | BoundarySegment
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class VerticalCard:
+    """A time in which height keeps two aircraft apart: their separation does not count then."""
+
+    from_: Second
+    """Since when."""
+    to: Second
+    """Until when."""
+    least: Metre
+    """The least height between the two in between, to be sure of."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OtherSeparationCard:
+    """Least separation from another aircraft or a cell, until two minutes after joining."""
+
+    ident: str
+    """Of the aircraft or the cell."""
+    least: Metre
+    """The least distance to the aircraft, or to the edge of the cell: negative inside."""
+    at: Second
+    """When it is so."""
+    proved_above: Metre
+    """It is proved never to be less."""
+    min_separation: Metre
+    """What is to be kept; 0 of a cell."""
+    vertical: tuple[VerticalCard, ...] = field(default=(), metadata=LEFT_OUT)
+    """When height keeps it. Left out if it never does."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Separation:
     """Least separation along a plan, and what is proved of it."""
 
@@ -98,6 +130,10 @@ class Separation:
     """When it is so."""
     proved_above: Metre
     """They are proved never to be closer."""
+    vertical: tuple[VerticalCard, ...] = field(default=(), metadata=LEFT_OUT)
+    """When height keeps it. Left out if it never does."""
+    others: tuple[OtherSeparationCard, ...] = field(default=(), metadata=LEFT_OUT)
+    """The same of other traffic and cells, least margin first. Left out if there are none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -165,6 +201,8 @@ class UnsafeAlternativeCard:
     """How close it comes."""
     at: Second
     """When it is closest."""
+    ident: str = field(default="", metadata=LEFT_OUT)
+    """To whom: other traffic, or a cell. Left out for the leader."""
     why: str
     """Why it is not flown, e.g. `comes within 4.22 NM at 212 s`."""
     rejected: Literal["separation"] = "separation"
@@ -295,6 +333,77 @@ class NotFlownCard:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ConflictCard:
+    """What the best path that was found comes too close to."""
+
+    ident: str
+    """Of other traffic, or of a cell."""
+    at: Second
+    """When it is nearest."""
+    least: Metre
+    """How near it comes; negative inside a cell."""
+    min_separation: Metre
+    """What is to be kept; 0 of a cell."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SlotDistanceRemedy:
+    """With another D there is a plan."""
+
+    slot_distance: Metre
+    """D."""
+    time_to_converge: Second
+    """T of that plan."""
+    message: str
+    """The same in a sentence."""
+    kind: Literal["slot_distance"] = "slot_distance"
+    """Another D."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LaterRemedy:
+    """Asked later there is a plan."""
+
+    later: Second
+    """How much later."""
+    time_to_converge: Second
+    """T of that plan, from then on."""
+    message: str
+    """The same in a sentence."""
+    kind: Literal["later"] = "later"
+    """Asked later."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LevelRemedy:
+    """At another level there is a plan."""
+
+    altitude: Metre
+    """The level."""
+    time_to_converge: Second
+    """T of that plan."""
+    message: str
+    """The same in a sentence."""
+    kind: Literal["level"] = "level"
+    """Another level."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SideRemedy:
+    """The other way round there is a plan."""
+
+    time_to_converge: Second
+    """T of that plan."""
+    message: str
+    """The same in a sentence."""
+    kind: Literal["side"] = "side"
+    """The other way round."""
+
+
+RemedyCard = SlotDistanceRemedy | LaterRemedy | LevelRemedy | SideRemedy
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class NoPlanCard:
     """No plan, why, and what would help."""
 
@@ -304,5 +413,9 @@ class NoPlanCard:
     """A sentence that says what would help."""
     lower_bound: Second = 0.0
     """No plan that keeps d_min is faster than this [s]; 0 where nothing is known."""
+    conflict: ConflictCard | None = field(default=None, metadata=LEFT_OUT)
+    """With the reason `traffic`: who is in the way, when, and how near. Else left out."""
+    remedies: tuple[RemedyCard, ...] = field(default=(), metadata=LEFT_OUT)
+    """With the reason `traffic`: what would help, each of it tried. Left out if there is none."""
     status: Literal["no_plan"] = "no_plan"
     """There is none."""

@@ -15,6 +15,7 @@ from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
 from relguide.flying.logbook import PairNames
 from relguide.flying.perception import Perceived, Perception
+from relguide.flying.queues import behind_head
 from relguide.flying.world import Link, World
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.flight_records import Body, Drift, move_to
@@ -86,10 +87,14 @@ class Pursuit:
 
     link: Link
     names: PairNames
+    flown: Link
+    """What guidance flies: the link itself, or in a queue one behind its head."""
     pursuer: int
     """Which of the fleet."""
     leader: int
-    """Which of the fleet."""
+    """Which of the fleet guidance goes by: the leader, or in a queue its head."""
+    ahead: int
+    """Which of the fleet is the link's leader."""
     assignment: Assignment
     track: FlownTrack
     perception: Perception | None
@@ -122,6 +127,16 @@ class Pursuit:
     """When the fan that is open is to be made anew, flight time; 0 while none is open [s]."""
     heard: Belief | None = None
     """What was last heard of the leader; `None` while its reports are received."""
+
+    @property
+    def queued(self) -> bool:
+        """Whether guidance goes by another aircraft than the link's leader."""
+        return self.leader != self.ahead
+
+    @property
+    def watched(self) -> PairNames:
+        """The pursuer, and the aircraft that its guidance goes by."""
+        return PairNames(self.flown.pursuer, self.flown.leader)
 
     def belief(self, fleet: Fleet, t: Second) -> Belief:
         """What the pursuer knows now."""
@@ -183,7 +198,8 @@ def begin_pursuit(
         engagement: how far guidance is engaged.
         seed: of what is not perceived exactly.
     """
-    i, j = world.index(link.pursuer), world.index(link.leader)
+    flown = behind_head(link, world.links, world.settings.separation_buffer)
+    i, j = world.index(flown.pursuer), world.index(flown.leader)
     perception, seen = None, None
     leader, drift = fleet.body(j), fleet.drift(j)
     if world.perceives:
@@ -195,16 +211,18 @@ def begin_pursuit(
         perception.listen(leader, drift, fleet.drift(i))
         seen = fleet.see(perception, i, j, 0.0)
         leader, drift = seen.leader, seen.wind
-    track = FlownTrack(leader, drift, 0.0, link.slot_distance + SPARE)
-    intent = link.declared_intent
+    track = FlownTrack(leader, drift, 0.0, flown.slot_distance + SPARE)
+    intent = flown.declared_intent
     declared = None if intent is None else fleet.as_declared(j, intent)
-    belief = fleet.belief(i, j, track, 0.0, link.intent_known, declared, seen)
-    assignment = assignment_of(world, link)
+    belief = fleet.belief(i, j, track, 0.0, flown.intent_known, declared, seen)
+    assignment = assignment_of(world, flown)
     return Pursuit(
         link=link,
         names=PairNames(link.pursuer, link.leader),
+        flown=flown,
         pursuer=i,
         leader=j,
+        ahead=world.index(link.leader),
         assignment=assignment,
         track=track,
         perception=perception,
@@ -213,7 +231,7 @@ def begin_pursuit(
         declared=declared,
         view=LeaderView(belief),
         memory=begin(belief, engagement),
-        metrics=FlightMetrics(fleet.apart(i, j)),
+        metrics=FlightMetrics(fleet.apart(i, world.index(link.leader))),
         idle_deceleration=assignment.idle_deceleration,
     )
 

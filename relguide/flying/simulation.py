@@ -10,6 +10,7 @@ from functools import partial
 from itertools import count
 from typing import get_args
 
+from relguide.flying.aircraft_ahead import mind_ahead
 from relguide.flying.aircraft_documents import AircraftCard, LinkCard
 from relguide.flying.belief import Belief
 from relguide.flying.braking import learn_braking
@@ -43,6 +44,7 @@ from relguide.flying.orders import (
     expect_engagement,
     no_commands,
     obey,
+    order_fault,
 )
 from relguide.flying.pursuit import Pursuit, begin_pursuit, keep_margin
 from relguide.flying.world import World
@@ -80,7 +82,8 @@ def simulate(
         scenario: the flight's name.
         title: the same for people.
         planner_name: who makes the plans, as their cards say.
-        commands: polled once a second with the flight time; they are for the first link.
+        commands: polled once a second with the flight time; each is for the aircraft that it names,
+            or else for the first link.
         step: integration step [s]; a whole number of steps makes a second.
         sample_period: between samples [s]; a whole number of steps.
         seed: from which the world was drawn; written into the first document.
@@ -143,7 +146,7 @@ def _simulate(
         for command in commands(t):
             yield from _obey(command, fleet, pursuits, t)
         for one in pursuits:
-            yield from _guide(one, fleet, guide, fan, t)
+            yield from _guide(one, pursuits, fleet, guide, fan, t)
         end = _end(pursuits, fleet, t, until, after_joining)
         if end is not None:
             yield from _finish(pursuits, fleet, t, *end)
@@ -212,23 +215,36 @@ def _wind_at_start(world: World) -> Wind:
 
 
 def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) -> Iterator[Document]:
-    """The first link's leader, or its pursuer, does as it is ordered; all pursuers hear of it."""
+    """Who is ordered does so; all pursuers of a leader hear of it."""
     expect("A command", command, *get_args(Command))
-    if not pursuits:
-        return
-    first = pursuits[0]
+    world = fleet.world
+    links = [(link.pursuer, link.leader) for link in world.links]
+    fault = order_fault(command, [aircraft.ident for aircraft in world.aircraft], links)
+    if fault:
+        raise ValueError(fault)
     if isinstance(command, CrewCommand):
-        yield from obey_crew(first, command, fleet, t)
+        for one in _pursuits_of(command.ident, pursuits):
+            yield from obey_crew(one, command, fleet, t)
         return
-    known, said = obey(command, fleet, first.leader, first.known, t)
-    for one in pursuits:
-        if one.leader == first.leader:
-            one.known = known
-            note_command(one, command, t)
+    if not (command.ident or links):
+        return
+    ordered = world.index(command.ident or links[0][1])
+    behind = [one for one in pursuits if ordered in (one.leader, one.ahead)]
+    known, said = obey(command, fleet, ordered, any(one.known for one in behind), t)
+    for one in behind:
+        one.known = known
+        note_command(one, command, t)
     yield from said
 
 
-def _guide(one: Pursuit, fleet: Fleet, guide: Guide, fan: Fan, t: Second) -> Iterator[Document]:
+def _pursuits_of(ident: str, pursuits: list[Pursuit]) -> list[Pursuit]:
+    """The pursuit of an aircraft; of the first link where none is named."""
+    return [one for one in pursuits if ident == one.names.pursuer] if ident else pursuits[:1]
+
+
+def _guide(
+    one: Pursuit, pursuits: list[Pursuit], fleet: Fleet, guide: Guide, fan: Fan, t: Second
+) -> Iterator[Document]:
     """One act of guidance, and what is new of the leader."""
     learn_braking(one, fleet)
     yield from doubt_leader(one, fleet, t)
@@ -237,6 +253,7 @@ def _guide(one: Pursuit, fleet: Fleet, guide: Guide, fan: Fan, t: Second) -> Ite
     yield from watch_leader(one, belief)
     keep_margin(one, belief)
     one.memory, advice = guide(one.memory, belief, one.assignment)
+    advice = mind_ahead(one, pursuits, fleet, belief, advice)
     for event in advice.events:
         document = event_document(t, one.names, event)
         one.metrics = count_event(one.metrics, document)
@@ -288,7 +305,7 @@ def _finish(
             one.names,
             one.metrics,
             one.memory.fallbacks,
-            optimum(fleet.world, one.link) if one.metrics.joined else 0.0,
+            optimum(fleet.world, one.flown) if one.metrics.joined else 0.0,
         )
         for one in pursuits
     )

@@ -7,6 +7,7 @@ from relguide.flying.air import STANDARD_AIR, Air
 from relguide.flying.airframe import Airframe
 from relguide.flying.envelope import envelope_fault
 from relguide.flying.guidance.settings import DEFAULT, Settings
+from relguide.flying.slots import refuse_taken
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.aircraft import expect_distance
@@ -167,7 +168,7 @@ class World:
     settings: Settings = DEFAULT
 
     def __post_init__(self) -> None:
-        """Refuse links between aircraft that are not there, and pursuers that cannot be guided."""
+        """Refuse links to who is not there, pursuers without guidance, and slots that are taken."""
         object.__setattr__(self, "aircraft", _all_of("aircraft", self.aircraft, Aircraft))
         object.__setattr__(self, "links", _all_of("links", self.links, Link))
         expect("air", self.air, Air)
@@ -189,6 +190,7 @@ class World:
             self._expect_guided(flying[link.pursuer])
         if len({link.pursuer for link in self.links}) < len(self.links):
             raise ValueError("Each pursuer must have one link: it joins one leader.")
+        refuse_taken(self.links, {ident: one.tas for ident, one in flying.items()})
 
     def _expect_guided(self, pursuer: Aircraft) -> None:
         if not isinstance(pursuer.pilot, Guided):

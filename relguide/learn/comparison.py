@@ -31,9 +31,9 @@ from relguide.learn.tree.regular_words import SIGN, pieces_of
 from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.planning.acceptance import find_fault
 from relguide.planning.candidate import Candidate, assemble
-from relguide.planning.certificate import certify
+from relguide.planning.certificate import certify, lost_to
 from relguide.planning.inputs import expect
-from relguide.planning.phrases import distance, duration, too_close
+from relguide.planning.phrases import distance, duration, too_close, too_close_to
 from relguide.planning.plan import AS_FAST, NoPlan, Plan, plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
@@ -152,8 +152,11 @@ def _judge(
     if (fault := find_fault(trajectory, situation)) is not None:
         faults.append(fault[1])
     if not certificate.holds:
-        close = too_close(certificate.least_separation, situation.min_separation)
-        faults.append(f"it comes {close} of the leader")
+        lost = lost_to(certificate)
+        close = f"{too_close(certificate.least_separation, situation.min_separation)} of the leader"
+        if lost is not None:
+            close = too_close_to(lost.ident, lost.least_separation, lost.min_separation)
+        faults.append(f"it comes {close}")
     if name == "printed_network" and faults:
         faults += _unlike(_printed(), situation, best)
     if faults:

@@ -19,7 +19,7 @@ The source of the times is an argument (`Evaluate`): lines and regions can be dr
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from os import cpu_count
 from time import perf_counter_ns
@@ -144,7 +144,7 @@ def isochrones(
     """Lines of equal time-to-converge, and regions of equal word.
 
     Args:
-        situation: all but the pursuer's place counts.
+        situation: all but the pursuer's place counts, and the others, who are left out.
         grid: where to look; 160 × 120 km round the leader if left out.
         levels: times of the lines [s], ascending; some round ones if empty.
         evaluate: gives the times; `times_around(situation)` if left out. Two threads call it at
@@ -156,6 +156,7 @@ def isochrones(
         progress: called with the number of nodes searched since the last call.
     """
     expect("situation", situation, Situation)
+    situation = replace(situation, others=()) if situation.others else situation
     exact = truth("exact", exact)
     if threads is not None:
         threads = expect_whole("threads", threads, 1)

@@ -21,9 +21,9 @@ from relguide.planning.arrival import (
     MAX_SLOT_ERROR,
     arrival,
 )
-from relguide.planning.certificate import certify
+from relguide.planning.certificate import Certificate, certify, lost_to
 from relguide.planning.deadline import end_of, left_until
-from relguide.planning.phrases import distance, duration, too_close
+from relguide.planning.phrases import distance, duration, too_close, too_close_to
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.situation import Situation
@@ -113,8 +113,7 @@ def judge_answer(answer: object, situation: Situation, until: float = inf) -> Fl
             certificate = certify(answer.trajectory, situation)
             found = find_fault(answer.trajectory, situation)
             if found is None and not certificate.holds:
-                limit = situation.min_separation
-                found = "separation", f"it comes {too_close(certificate.least_separation, limit)}"
+                found = "separation", f"it comes {_how_near(certificate, situation)}"
             if found is None:
                 if answer.certificate != certificate or answer.situation is not situation:
                     answer = replace(answer, situation=situation, certificate=certificate)
@@ -130,6 +129,13 @@ def judge_answer(answer: object, situation: Situation, until: float = inf) -> Fl
     if isinstance(instead, Plan):
         instead = replace(instead, fell_back=True)
     return FlyableAnswer(instead, fell_back=True, refusal=refusal)
+
+
+def _how_near(certificate: Certificate, situation: Situation) -> str:
+    lost = lost_to(certificate)
+    if lost is None:
+        return too_close(certificate.least_separation, situation.min_separation)
+    return too_close_to(lost.ident, lost.least_separation, lost.min_separation)
 
 
 def find_fault(trajectory: Trajectory, situation: Situation) -> tuple[Fault, str] | None:

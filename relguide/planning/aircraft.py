@@ -6,9 +6,11 @@ from relguide.kernels.base.turn import turn_radius
 from relguide.planning.inputs import expect_within, text
 from relguide.planning.intent import (
     IntentPiece,
+    LevelChange,
     declared_path,
     expect_bank,
     expect_intent,
+    expect_levels,
     final_heading,
     heading_in_degrees,
     settle,
@@ -92,6 +94,9 @@ class Pursuer:
     """φ_max, the bank its turns are flown at [rad]."""
     altitude: Metre | None = None
     """Pressure altitude [m]; `None` as in `Leader`."""
+    levels: tuple[LevelChange, ...] = ()
+    """Changes of level that it will make. `plan` chooses them where there are none and the leader
+    is, or will be, at another level."""
 
     __repr__ = as_code
 
@@ -99,6 +104,8 @@ class Pursuer:
         """Refuse what cannot be flown."""
         _settle_aircraft("pursuer", self)
         settle(self, "max_bank", expect_bank("pursuer.max_bank", self.max_bank))
+        if self.levels != ():
+            settle(self, "levels", expect_levels("pursuer.levels", self.levels))
 
     @classmethod
     def from_display(

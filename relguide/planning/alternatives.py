@@ -15,11 +15,11 @@ import numpy as np
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, solve
 from relguide.planning.candidate import Candidate
-from relguide.planning.certificate import certify
+from relguide.planning.certificate import certify, lost_to
 from relguide.planning.deadline import end_of
 from relguide.planning.inputs import expect
 from relguide.planning.passing import Passing, Surroundings, passing, surroundings
-from relguide.planning.phrases import duration, too_close
+from relguide.planning.phrases import duration, too_close, too_close_to
 from relguide.planning.plan import AS_FAST, Plan
 from relguide.planning.slot import SlotFrame
 from relguide.planning.trajectory import Trajectory
@@ -210,8 +210,14 @@ def _same_time(candidate: Candidate, plan: Plan) -> bool:
 
 def _compare(candidate: Candidate, ours: Passing, plan: Plan) -> Alternative:
     certificate = certify(candidate.trajectory, plan.situation)
-    near = too_close(certificate.least_separation, plan.situation.min_separation)
-    near = f"comes {near} at {certificate.at_time:.0f} s"
+    lost = lost_to(certificate)
+    if lost is None:
+        least, at, ident = certificate.least_separation, certificate.at_time, ""
+        near = too_close(least, plan.situation.min_separation)
+    else:
+        least, at, ident = lost.least_separation, lost.at_time, lost.ident
+        near = too_close_to(ident, least, lost.min_separation)
+    near = f"comes {near} at {at:.0f} s"
     by = candidate.time_to_converge - plan.time_to_converge
     rejected: Slower | AsFast | Faster | LosesSeparation
     if by > AS_FAST:
@@ -220,9 +226,7 @@ def _compare(candidate: Candidate, ours: Passing, plan: Plan) -> Alternative:
         if not certificate.holds:
             why += f", and {near}"
     elif not certificate.holds:
-        rejected = LosesSeparation(
-            least_separation=certificate.least_separation, at_time=certificate.at_time
-        )
+        rejected = LosesSeparation(least_separation=least, at_time=at, ident=ident)
         why = near
     elif by < -AS_FAST:
         rejected = Faster(by=-by)

@@ -3,6 +3,9 @@
 It does not depend on where the trajectory comes from: it reads the segments alone. Each other
 aircraft and each cell has a bound of its own, until `FOLLOWED` seconds after the pursuer joins:
 from then on it flies in the slot.
+
+Where both levels are known, a separation counts only in the times in which 1,000 ft are not certain
+(`heights`). Where it never counts, the least separation of all time is told, and holds.
 """
 
 from dataclasses import dataclass
@@ -16,6 +19,15 @@ from relguide.kernels.separation.cell import least_from_cell
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.aircraft import Traffic
 from relguide.planning.cells import Cell, Disc, Polygon
+from relguide.planning.heights import (
+    ALWAYS,
+    Heights,
+    Interval,
+    KeptByHeight,
+    counted,
+    heights_of,
+    kept_by_height,
+)
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Other, Situation
 from relguide.planning.slot import slot_frame
@@ -47,7 +59,9 @@ class OtherSeparation:
     min_separation: Metre
     """What is to be kept [m]; 0 for a cell."""
     holds: bool
-    """Whether `lower_bound` keeps it, to 1e-6 R."""
+    """Whether `lower_bound` keeps it, to 1e-6 R, or height does."""
+    vertical: tuple[KeptByHeight, ...] = ()
+    """When height keeps it: separations then do not count."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,15 +69,18 @@ class Certificate:
     """Least separation of a trajectory from the leader over [0, T], with its proof."""
 
     least_separation: Metre
-    """The least separation found, reached at `at_time` [m]."""
+    """The least separation found where it counts, reached at `at_time` [m]."""
     at_time: Second
     """When it is reached [s]."""
     lower_bound: Metre
-    """No separation anywhere in [0, T] is below this [m]: proved, not sampled."""
+    """No separation that counts in [0, T] is below this [m]: proved, not sampled."""
     holds: bool
-    """Whether `lower_bound` keeps d_min, to 1e-6 R, and each of the others is kept clear of."""
+    """Whether `lower_bound` keeps d_min, to 1e-6 R, or height does, and each of the others is kept
+    clear of."""
     others: tuple[OtherSeparation, ...] = ()
     """The same of other traffic and cells, least margin first."""
+    vertical: tuple[KeptByHeight, ...] = ()
+    """When height keeps the leader apart: separations then do not count."""
 
 
 def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
@@ -89,16 +106,22 @@ def judge(
         radius: R, which callers have at hand [m].
         leading: the situation's `leader_path`, or `path_of` what its leader flies.
     """
-    path = path_of(trajectory)
-    least, at, bound = least_on_paths(path, leading, TOLERANCE * radius)
-    others = _others(path, trajectory.duration, situation, radius) if situation.others else ()
+    path, end = path_of(trajectory), trajectory.duration
+    own, theirs = heights_of(situation.pursuer), heights_of(situation.leader)
+    when, limit = counted(own, theirs), situation.min_separation
+    if when == ALWAYS:
+        found = _Least(*least_on_paths(path, leading, TOLERANCE * radius))
+    else:
+        found = _least_where(path, leading, 0.0, end, when, TOLERANCE * radius)
+    others = _others(path, end, situation, radius) if situation.others else ()
     return Certificate(
-        least_separation=least,
-        at_time=at,
-        lower_bound=bound,
-        holds=bound >= situation.min_separation - SLACK * radius
+        least_separation=found.separation,
+        at_time=found.at,
+        lower_bound=found.bound,
+        holds=(found.bound >= limit - SLACK * radius or not found.counts)
         and all(other.holds for other in others),
         others=others,
+        vertical=() if when == ALWAYS else kept_by_height(own, theirs, end),
     )
 
 
@@ -108,6 +131,37 @@ class _Least(NamedTuple):
     separation: Metre
     at: Second
     bound: Metre
+    counts: bool = True
+    """Whether there is a time in which it counts."""
+
+
+def _least_where(
+    path: FloatArray,
+    theirs: FloatArray,
+    begin: Second,
+    end: Second,
+    when: tuple[Interval, ...],
+    tolerance: Metre,
+) -> _Least:
+    """The least separation of two aircraft from `begin` to `end`, in the times that count.
+
+    Args:
+        path: the pursuer's.
+        theirs: the other aircraft's.
+        begin: from when on [s].
+        end: until when [s].
+        when: times in which the horizontal minimum counts.
+        tolerance: how closely the least is proved [m].
+    """
+    spans = [(max(begin, since), min(end, until)) for since, until in when]
+    spans = [(since, until) for since, until in spans if since <= until]
+    found = [
+        _Least(*least_on_paths_within(path, theirs, since, until, tolerance))
+        for since, until in spans or [(begin, end)]
+    ]
+    nearest = min(found)
+    bound = min(one.bound for one in found)
+    return _Least(nearest.separation, nearest.at, bound, bool(spans))
 
 
 def _others(
@@ -115,7 +169,7 @@ def _others(
 ) -> tuple[OtherSeparation, ...]:
     """All others in turn, least margin first."""
     found = [
-        _other(path, _following(situation), joined, other, situation.wind, radius)
+        _other(path, _following(situation), joined, other, situation, radius)
         for other in situation.others
     ]
     return tuple(sorted(found, key=lambda other: other.lower_bound - other.min_separation))
@@ -133,13 +187,17 @@ def _other(
     following: FloatArray,
     joined: Second,
     other: Other,
-    wind: Wind,
+    situation: Situation,
     radius: Metre,
 ) -> OtherSeparation:
     """One of the others, on the way to the slot and in it."""
     limit = other.min_separation if isinstance(other, Traffic) else 0.0
     legs = (path, 0.0, joined), (following, joined, joined + FOLLOWED)
-    least = [_least(*leg, other, wind, radius) for leg in legs]
+    own = heights_of(situation.pursuer)
+    theirs = heights_of(other) if isinstance(other, Traffic) else Heights(altitude=None)
+    when = counted(own, theirs)
+    every = [_least(*leg, other, situation.wind, radius, when) for leg in legs]
+    least = [found for found in every if found.counts] or every
     nearest = min(least)
     bound = min(found.bound for found in least)
     return OtherSeparation(
@@ -148,17 +206,24 @@ def _other(
         at_time=nearest.at,
         lower_bound=bound,
         min_separation=limit,
-        holds=bound >= limit - SLACK * radius,
+        holds=bound >= limit - SLACK * radius or not nearest.counts,
+        vertical=kept_by_height(own, theirs, joined + FOLLOWED),
     )
 
 
 def _least(
-    path: FloatArray, begin: Second, end: Second, other: Other, wind: Wind, radius: Metre
+    path: FloatArray,
+    begin: Second,
+    end: Second,
+    other: Other,
+    wind: Wind,
+    radius: Metre,
+    when: tuple[Interval, ...],
 ) -> _Least:
     match other:
         case Traffic():
             theirs = path_of(other.trajectory)
-            return _Least(*least_on_paths_within(path, theirs, begin, end, TOLERANCE * radius))
+            return _least_where(path, theirs, begin, end, when, TOLERANCE * radius)
         case Cell():
             corners, cell = cell_shape(other, wind)
             return _Least(*least_from_cell(path, corners, cell, begin, end, AROUND_CELLS))
@@ -182,3 +247,8 @@ def cell_shape(cell: Cell, wind: Wind) -> tuple[FloatArray, FloatArray]:
             assert_never(cell.shape)
     velocity = cell.east - wind.east, cell.north - wind.north
     return np.array(corners), np.array((radius, cell.growth, *velocity))
+
+
+def lost_to(certificate: Certificate) -> OtherSeparation | None:
+    """The other that a path comes too close to, by the most; `None` if it keeps clear of all."""
+    return next((other for other in certificate.others if not other.holds), None)

@@ -125,6 +125,26 @@ class ChangeLevel:
             )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class LevelChange:
+    """A climb or a descent to a level, begun at a time: what a pursuer plans for itself."""
+
+    at: Second
+    """When it begins [s], ≥ 0."""
+    to_altitude: Metre
+    """Pressure altitude to level off at [m]."""
+    rate: MetrePerSecond
+    """How fast [m/s], > 0."""
+
+    __repr__ = as_code
+
+    def __post_init__(self) -> None:
+        """Refuse a time, a level or a rate that no aircraft flies."""
+        for name, accepted in (("at", PIECE), ("to_altitude", ALTITUDE), ("rate", VERTICAL_RATE)):
+            checked = expect_within(f"level change.{name}", getattr(self, name), *accepted)
+            settle(self, name, checked)
+
+
 IntentPiece = FlyStraight | TurnTo | ChangeLevel
 
 
@@ -141,6 +161,22 @@ def expect_intent(name: str, value: object) -> tuple[IntentPiece, ...]:
     for i, piece in enumerate(value):
         if not isinstance(piece, IntentPiece):
             raise ValueError(f"{name}[{i}] must be a FlyStraight, a TurnTo or a ChangeLevel.")
+    return tuple(value)
+
+
+def expect_levels(name: str, value: object) -> tuple[LevelChange, ...]:
+    """Changes of level in order of time, a list of them as well.
+
+    Raises:
+        ValueError: for anything else, and for more than `MAX_PIECES`.
+    """
+    if not isinstance(value, tuple | list) or len(value) > MAX_PIECES:
+        raise ValueError(f"{name} must be a tuple of at most {MAX_PIECES} LevelChange.")
+    for i, change in enumerate(value):
+        if not isinstance(change, LevelChange):
+            raise ValueError(f"{name}[{i}] must be a LevelChange.")
+        if i and change.at < value[i - 1].at:
+            raise ValueError(f"{name}[{i}] must not begin before the one in front of it.")
     return tuple(value)
 
 

@@ -27,8 +27,33 @@ def too_close(least: Metre, limit: Metre) -> str:
     return f"within {distance(least)}"
 
 
+def too_close_to(ident: str, least: Metre, limit: Metre) -> str:
+    """The same of other traffic, or of a cell, whose limit is 0 and whose inside is negative."""
+    if limit <= 0.0:
+        return f"{distance(abs(least))} into {ident}"
+    close = too_close(least, limit)
+    return f"{close} {'of' if close.startswith('within') else 'to'} {ident}"
+
+
 def duration(time: Second) -> str:
     """A time to a tenth of a second; from ten seconds on, to a second."""
     if time < 0.05:
         return "less than 0.1 s"
     return f"{time:.1f} s" if time < 9.95 else f"{time:,.0f} s"
+
+
+def comes_too_close(ident: str, least: Metre, limit: Metre, time: Second) -> str:
+    """Whom a path comes too close to, and when: `comes within 3.10 NM of BAW12 at 140 s …`.
+
+    Args:
+        ident: of other traffic, or of a cell.
+        least: how near it comes, negative inside a cell [m].
+        limit: what is to be kept, 0 for a cell [m].
+        time: when it is nearest [s].
+    """
+    if limit > 0.0:
+        near = f"comes {too_close(least, limit)} of {ident}"
+        if distance(least) == distance(limit):
+            near = f"comes {limit - least:.1f} m too close to {ident}"
+        return f"{near} at {time:.0f} s, and {distance(limit)} is to be kept"
+    return f"is {distance(max(-least, 0.0))} inside {ident} at {time:.0f} s"

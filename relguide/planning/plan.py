@@ -1,7 +1,7 @@
 """plan(situation) → Plan | NoPlan: the fastest candidate that certifies, and what is proved."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import islice
 from math import hypot, inf
@@ -19,12 +19,21 @@ from relguide.planning.candidate import Candidate
 from relguide.planning.certificate import Certificate, certify, judge
 from relguide.planning.constrained_path import constrained_path
 from relguide.planning.deadline import TO_LOOK_ROUND, TO_PUT_DOWN, end_of
+from relguide.planning.heights import ALWAYS, counted, heights_of
 from relguide.planning.inputs import expect, number
+from relguide.planning.intent import LevelChange
 from relguide.planning.least_bad import (
     least_bad,
     least_bad_sentence,
     restore,
     restore_sentence,
+)
+from relguide.planning.levels import (
+    changing_late,
+    chooses_level,
+    is_at_level,
+    meanwhile,
+    with_leader,
 )
 from relguide.planning.phrases import distance
 from relguide.planning.sampling import Samples
@@ -52,6 +61,7 @@ class Reason(StrEnum):
     BEYOND_HORIZON = "beyond_horizon"
     DEADLINE = "deadline"
     TRAFFIC = "traffic"
+    LEVEL = "level"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,6 +78,7 @@ class Plan:
     """A certified trajectory to the slot."""
 
     situation: Situation
+    """What was asked about; the pursuer with the changes of level that were planned."""
     trajectory: Trajectory
     """In the air mass, from the pursuer's present state to the slot."""
     word: str
@@ -91,6 +102,11 @@ class Plan:
             raise ValueError(
                 f"planner must be a name of 1 to {LONGEST_NAME} printable characters, not {name!r}."
             )
+
+    @property
+    def levels(self) -> tuple[LevelChange, ...]:
+        """Changes of level that the pursuer makes."""
+        return self.situation.pursuer.levels
 
     @property
     def time_to_converge(self) -> Second:
@@ -222,6 +238,9 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
     touch d_min or slide along it are searched too. The plan is then the fastest path that
     certifies, and the time of the fastest candidate is its lower bound (`proof="bound"`).
 
+    Amid others, what is proved for the leader alone is a lower bound, and if that plan keeps clear
+    of all it is the answer. If not, paths that touch any of them are searched (`planning/amid.py`).
+
     The work is bounded whatever the situation: contacts are searched at a fixed number of bearings
     for each piece of the leader's intent, a word has at most 96 roots, a certificate takes at most
     131,072 windows, and nothing beyond 12 hours is considered. The slowest case found takes some
@@ -238,11 +257,20 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
         ValueError: if the deadline is out of range, or `situation` is no situation.
     """
     expect("situation", situation, Situation)
+    if situation.others:
+        return _amid_others(situation, deadline)
     until = end_of(deadline)
+    if chooses_level(situation):
+        return _plan_by_level(situation, until)
+    return _plan(situation, until)
+
+
+def _plan(situation: Situation, until: float) -> Plan | NoPlan:
+    """`plan` where the pursuer's level is settled."""
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
     separation = _separation(situation)
-    if separation < situation.min_separation - SLACK * radius:
+    if separation < situation.min_separation - SLACK * radius and _counts_now(situation):
         lost = (
             f"The aircraft are {separation:,.0f} m ({distance(separation)}) apart, closer "
             f"than the minimum of {situation.min_separation:,.0f} m."
@@ -261,9 +289,14 @@ def plan_at_once(situation: Situation) -> Plan | NoPlan | None:
     runs a small part of the planner's machine code.
     """
     expect("situation", situation, Situation)
+    if situation.others:
+        return _at_once_amid_others(situation)
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
-    if _separation(situation) < situation.min_separation - SLACK * radius:
+    if chooses_level(situation) or (
+        _separation(situation) < situation.min_separation - SLACK * radius
+        and _counts_now(situation)
+    ):
         return None
     chosen = _plan_at_once(situation, radius)
     if chosen is None:
@@ -275,10 +308,92 @@ def plan_at_once(situation: Situation) -> Plan | NoPlan | None:
     return None if chosen is None else _plan_of(chosen, situation, started)
 
 
+def _amid_others(situation: Situation, deadline: Second | None) -> Plan | NoPlan:
+    """As `plan`, where there is more to keep clear of than the leader."""
+    from relguide.planning import amid  # most who plan have no others
+
+    if deadline is not None:
+        amid.load_kernels()
+    return amid.plan_amid(situation, until=end_of(deadline))
+
+
+def _at_once_amid_others(situation: Situation) -> Plan | NoPlan | None:
+    """As `plan_at_once`: what is so for the leader alone, if it keeps clear of all others."""
+    alone = plan_at_once(replace(situation, others=()))
+    if not isinstance(alone, Plan):
+        return alone
+    certificate = certify(alone.trajectory, situation)
+    return (
+        replace(alone, situation=situation, certificate=certificate) if certificate.holds else None
+    )
+
+
 def _separation(situation: Situation) -> Metre:
     """Between the two aircraft now [m]."""
     pursuer, leader = situation.pursuer, situation.leader
     return hypot(pursuer.x - leader.x, pursuer.y - leader.y)
+
+
+def _counts_now(situation: Situation) -> bool:
+    """Whether the horizontal minimum counts at t = 0."""
+    when = counted(heights_of(situation.pursuer), heights_of(situation.leader))
+    return when == ALWAYS or (when != () and when[0][0] <= 0.0)
+
+
+def _plan_by_level(situation: Situation, until: float) -> Plan | NoPlan:
+    """The fastest plan of those with each choice of level; the first of equally fast ones.
+
+    With the leader first: where the distance alone keeps them apart, no other is faster.
+    """
+    first = _plan(with_leader(situation), until)
+    best = first if isinstance(first, Plan) and _joins_at_level(first) else None
+    bound = first.optimality.lower_bound if isinstance(first, Plan) else first.lower_bound
+    own = situation.pursuer.altitude
+    for level in () if own is None else (own, *meanwhile(situation)):
+        time = bound
+        while not (best and best.time_to_converge <= bound + AS_FAST) and not time_is_up(until):
+            asked = changing_late(situation, level, time)
+            answer = None if asked is None else _plan(asked, until)
+            if not isinstance(answer, Plan) or not _joins_at_level(answer):
+                break
+            if best is None or answer.time_to_converge < best.time_to_converge - AS_FAST:
+                best = answer
+            if answer.time_to_converge <= time + AS_FAST:
+                break
+            time = answer.time_to_converge
+    if best is not None:
+        return best
+    if isinstance(first, NoPlan):
+        return first
+    return _later_at_level(first)
+
+
+def _joins_at_level(answer: Plan) -> bool:
+    return is_at_level(answer.situation, answer.time_to_converge)
+
+
+def _later_at_level(early: Plan) -> Plan | NoPlan:
+    """A path that joins once the pursuer is at the leader's level, where the fastest is earlier."""
+    situation, radius = early.situation, early.situation.pursuer.turn_radius
+    found = candidates(situation)
+    for candidate in found.later:
+        if is_at_level(situation, candidate.time_to_converge):
+            certificate = judge(candidate.trajectory, situation, radius, path_of(found.leader))
+            if certificate.holds:
+                return replace(
+                    early,
+                    trajectory=candidate.trajectory,
+                    word=candidate.word,
+                    certificate=certificate,
+                    optimality=replace(early.optimality, proof="bound"),
+                )
+    settled, joins = heights_of(situation.pursuer).settled(), early.time_to_converge
+    return NoPlan(
+        reason=Reason.LEVEL,
+        message=f"The slot is reached in {joins:.0f} s, but the leader's level only in "
+        f"{settled:.0f} s, and no path that takes so long was found: change the level first.",
+        lower_bound=early.optimality.lower_bound,
+    )
 
 
 def _plan_of(chosen: _Chosen, situation: Situation, started: int) -> Plan:

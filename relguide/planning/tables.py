@@ -58,16 +58,21 @@ def scene_of(situation: Situation, frame: SlotFrame) -> Scene:
 
 
 def leader_table(situation: Situation, frame: SlotFrame) -> FloatArray:
-    """The leader's pieces in the slot frame, a row each: start time, x, y, heading, turn rate.
+    """The leader's pieces in the slot frame: see `pieces_table`."""
+    return pieces_table(situation.leader.trajectory, situation, frame)
 
-    Lengths in R, times in R/V_P, angles counter-clockwise; the last row is the endless final leg.
+
+def pieces_table(flown: Trajectory, situation: Situation, frame: SlotFrame) -> FloatArray:
+    """Pieces of any aircraft in the slot frame, a row each: start time, x, y, heading, turn rate.
+
+    Lengths in R, times in R/V_P, angles counter-clockwise; the last row is its endless final leg.
     shape (pieces, 5)
     """
-    leader, tas = situation.leader.trajectory, situation.pursuer.tas
+    tas = situation.pursuer.tas
     table: list[tuple[float, ...]] = []
     t = 0.0
-    pieces = zip((*leader.durations(), inf), (*leader.turn_rates(), 0.0), strict=True)
-    for pose, (duration, rate) in zip(leader.breakpoints(), pieces, strict=True):
+    pieces = zip((*flown.durations(), inf), (*flown.turn_rates(), 0.0), strict=True)
+    for pose, (duration, rate) in zip(flown.breakpoints(), pieces, strict=True):
         if duration * tas / frame.radius > NO_TURN:  # shorter pieces are rounding
             x, y = frame.to_slot(pose.x, pose.y)
             turning = -rate * frame.radius / tas

@@ -16,7 +16,7 @@ from relguide_server.settings import ServiceSettings
 
 from relguide.planning.plan import NoPlan, Plan, plan
 from relguide.planning.situation import Situation
-from tests.server.flown import ideal_flight
+from tests.server.flown import LEADER, OWN, ideal_flight
 from tests.server.serving import TestClient, ideal_app, ideal_catalogue
 
 HARD = {
@@ -489,6 +489,23 @@ def test_a_plan_that_takes_long_keeps_nobody_waiting() -> None:
         assert client.get("/healthz").status_code == 200
         go_on.set()
         assert planned.result().json()["status"] == "planned"
+
+
+def test_an_order_names_an_aircraft_of_the_flight_or_is_refused(client: TestClient) -> None:
+    started = client.post("/api/v1/flights", json={"scenario": "ideal"})
+    where = f"{started.headers['location']}/commands"
+    fast = {"command": "leader_speed", "tas_mps": 210.0}
+    assert client.post(where, json=fast | {"ident": LEADER}).status_code == 202
+    refused = client.post(where, json=fast | {"ident": "BAW12"})
+    is_problem(refused, 422, where)
+    assert f"there are {OWN}, {LEADER}" in refused.text
+    for command in (
+        {"command": "set_engagement", "engagement": "off"},
+        {"command": "leader_data", "received": False},
+    ):
+        assert client.post(where, json=command | {"ident": LEADER}).status_code == 422
+        assert client.post(where, json=command | {"ident": OWN}).status_code == 202
+    client.delete(started.headers["location"])
 
 
 def test_a_crew_engages_step_by_step_and_what_may_not_follow_is_refused(

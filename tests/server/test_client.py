@@ -14,8 +14,9 @@ from relguide_server.settings import ServiceSettings
 
 from relguide.client import AsyncClient, Client, Invalid, Placed, Refused, calls
 from relguide.client.bodies import body_of
-from relguide.contract.bodies import UNANCHORED, plan_to_wire, situation_from_json
+from relguide.contract.bodies import plan_to_wire, situation_from_json
 from relguide.contract.bulk import refused_line
+from relguide.contract.places import UNANCHORED
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import plan_card
 from relguide.flying.documents import FlightStarted, Sample

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-5d4116c13b94";
+export const PROTOCOL = "relguide-35aa3d8873a3";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -82,7 +82,8 @@ export type Reason =
   | "separation_unavoidable"
   | "beyond_horizon"
   | "deadline"
-  | "traffic";
+  | "traffic"
+  | "level";
 
 /** A piece of a path over the ground. */
 export type PathSegment = TurnSegment | StraightSegment | BoundarySegment;
@@ -121,7 +122,7 @@ export type Document =
 export type PlanAnswer = PlanCard | NoPlanCard;
 
 /** A piece of the leader's intent. */
-export type IntentPiece = StraightPiece | TurnPiece;
+export type IntentPiece = StraightPiece | TurnPiece | LevelChangePiece;
 
 /** A request for a new flight. */
 export type FlightRequest = ScenarioFlightRequest | SituationFlightRequest;
@@ -344,6 +345,18 @@ export interface CellCard {
   lon_deg?: number[];
 }
 
+/** What the best path that was found comes too close to. */
+export interface ConflictCard {
+  /** Of other traffic, or of a cell. */
+  ident: string;
+  /** When it is nearest. */
+  at_s: number;
+  /** How near it comes; negative inside a cell. */
+  least_m: number;
+  /** What is to be kept; 0 of a cell. */
+  min_separation_m: number;
+}
+
 /** A contact with d = d_min, or the beginning or end of a boundary arc. */
 export interface ContactCard {
   /** When. */
@@ -371,6 +384,14 @@ export interface CostatesCard {
   separation_costate_s_per_m: number[];
   /** λ_θ. */
   bearing_costate_s_per_deg: number[];
+}
+
+/** A round weather cell at all levels, to be kept out of. */
+export interface DiscCell {
+  ident: string;
+  disc: LocalDisc | GeodeticDisc;
+  velocity_mps?: number[];
+  growth_mps?: number;
 }
 
 /** A word that reaches the place of the slot before it opens. */
@@ -541,6 +562,8 @@ export interface FlownSituationBody {
   slot_distance_m: number;
   min_separation_m: number;
   wind?: WindBody;
+  traffic?: (LocalTraffic | GeodeticTraffic)[];
+  cells?: (DiscCell | PolygonCell)[];
   id?: string | number;
   air?: AirBody | null;
   believed_air?: AirBody | null;
@@ -578,6 +601,19 @@ export interface ForecastChanged {
   lon_deg?: number[];
 }
 
+/** A corner of a cell, placed on the earth (WGS84). */
+export interface GeodeticCorner {
+  lat_deg: number;
+  lon_deg: number;
+}
+
+/** A round cell, at t = 0, placed on the earth (WGS84). */
+export interface GeodeticDisc {
+  lat_deg: number;
+  lon_deg: number;
+  radius_m: number;
+}
+
 /** The aircraft to be joined, at t = 0, placed on the earth (WGS84). */
 export interface GeodeticLeader {
   lat_deg: number;
@@ -585,6 +621,7 @@ export interface GeodeticLeader {
   heading_deg: number;
   tas_mps: number;
   intent?: IntentPiece[];
+  altitude_m?: number | null;
 }
 
 /** The aircraft that is guided, at t = 0, placed on the earth (WGS84). */
@@ -594,6 +631,19 @@ export interface GeodeticPursuer {
   heading_deg: number;
   tas_mps: number;
   max_bank_deg: number;
+  altitude_m?: number | null;
+}
+
+/** Another aircraft, at t = 0, placed on the earth (WGS84): to be kept clear of. */
+export interface GeodeticTraffic {
+  ident: string;
+  lat_deg: number;
+  lon_deg: number;
+  heading_deg: number;
+  tas_mps: number;
+  altitude_m?: number | null;
+  intent?: IntentPiece[];
+  min_separation_m?: number | null;
 }
 
 /** What the guidance of one pursuer does at one instant, and how it stands to its leader. */
@@ -640,6 +690,19 @@ export interface HeadingReference {
 export interface IntentKnownCommand {
   command: "intent_known";
   known: boolean;
+  ident?: string;
+}
+
+/** Asked later there is a plan. */
+export interface LaterRemedy {
+  /** Asked later. */
+  kind: "later";
+  /** How much later. */
+  later_s: number;
+  /** T of that plan, from then on. */
+  time_to_converge_s: number;
+  /** The same in a sentence. */
+  message: string;
 }
 
 /** The leader does something new, or its intent was received or withdrawn. */
@@ -656,6 +719,7 @@ export interface LeaderChanged {
 export interface LeaderDataCommand {
   command: "leader_data";
   received: boolean;
+  ident?: string;
 }
 
 /** Instruct the leader to turn to a heading. */
@@ -663,6 +727,7 @@ export interface LeaderHeadingCommand {
   command: "leader_heading";
   heading_deg: number;
   direction?: Direction | null;
+  ident?: string;
 }
 
 /**
@@ -685,6 +750,31 @@ export interface LeaderRoute {
 export interface LeaderSpeedCommand {
   command: "leader_speed";
   tas_mps: number;
+  ident?: string;
+}
+
+/** A climb or a descent to a level. */
+export interface LevelChange {
+  to_altitude_m: number;
+  rate_mps: number;
+  hold?: "cas" | "mach" | "tas";
+}
+
+/** A piece of intent: begin to change the level. The pieces behind it are flown meanwhile. */
+export interface LevelChangePiece {
+  level_change: LevelChange;
+}
+
+/** At another level there is a plan. */
+export interface LevelRemedy {
+  /** Another level. */
+  kind: "level";
+  /** The level. */
+  altitude_m: number;
+  /** T of that plan. */
+  time_to_converge_s: number;
+  /** The same in a sentence. */
+  message: string;
 }
 
 /** What a pursuer is to do: join its leader, and stay behind it. */
@@ -739,6 +829,13 @@ export interface LinkResult {
   across_error_m: number;
 }
 
+/** A round cell, at t = 0. */
+export interface LocalDisc {
+  x_m: number;
+  y_m: number;
+  radius_m: number;
+}
+
 /** The aircraft to be joined, at t = 0, with what it has declared it will do. */
 export interface LocalLeader {
   x_m: number;
@@ -746,6 +843,7 @@ export interface LocalLeader {
   heading_deg: number;
   tas_mps: number;
   intent?: IntentPiece[];
+  altitude_m?: number | null;
 }
 
 /** The aircraft that is guided, at t = 0. */
@@ -755,6 +853,19 @@ export interface LocalPursuer {
   heading_deg: number;
   tas_mps: number;
   max_bank_deg: number;
+  altitude_m?: number | null;
+}
+
+/** Another aircraft, at t = 0, with what it has declared it will do: to be kept clear of. */
+export interface LocalTraffic {
+  ident: string;
+  x_m: number;
+  y_m: number;
+  heading_deg: number;
+  tas_mps: number;
+  altitude_m?: number | null;
+  intent?: IntentPiece[];
+  min_separation_m?: number | null;
 }
 
 /** A loss of separation: from when the separation fell below d_min until it was d_min again. */
@@ -800,6 +911,10 @@ export interface NoPlanCard {
   message: string;
   /** No plan that keeps d_min is faster than this [s]; 0 where nothing is known. */
   lower_bound_s: number;
+  /** With the reason `traffic`: who is in the way, when, and how near. Else left out. */
+  conflict?: ConflictCard;
+  /** With the reason `traffic`: what would help, each of it tried. Left out if there is none. */
+  remedies?: (SlotDistanceRemedy | LaterRemedy | LevelRemedy | SideRemedy)[];
 }
 
 /** A plan that no aircraft flies, and why. */
@@ -859,6 +974,22 @@ export interface OtherPathCard {
   segments: PathSegment[];
   /** Why it is not proposed, e.g. `38 s slower`. */
   why: string;
+}
+
+/** Least separation from another aircraft or a cell, until two minutes after joining. */
+export interface OtherSeparationCard {
+  /** Of the aircraft or the cell. */
+  ident: string;
+  /** The least distance to the aircraft, or to the edge of the cell: negative inside. */
+  least_m: number;
+  /** When it is so. */
+  at_s: number;
+  /** It is proved never to be less. */
+  proved_above_m: number;
+  /** What is to be kept; 0 of a cell. */
+  min_separation_m: number;
+  /** When height keeps it. Left out if it never does. */
+  vertical?: VerticalCard[];
 }
 
 /** A place and a heading along a path, over the ground. */
@@ -1021,6 +1152,14 @@ export interface PlayCommand {
   command: "play";
 }
 
+/** A convex weather cell at all levels, to be kept out of. */
+export interface PolygonCell {
+  ident: string;
+  polygon: (number[] | GeodeticCorner)[];
+  velocity_mps?: number[];
+  growth_mps?: number;
+}
+
 /** The pursuer will join at another time than was last said, on the path that it flies. */
 export interface PromiseChanged {
   kind: "promise_changed";
@@ -1038,6 +1177,7 @@ export interface PromiseChanged {
 export interface PursuerHeadingCommand {
   command: "pursuer_heading";
   heading_deg: number;
+  ident?: string;
 }
 
 /** The flight at one instant. */
@@ -1083,6 +1223,10 @@ export interface Separation {
   at_s: number;
   /** They are proved never to be closer. */
   proved_above_m: number;
+  /** When height keeps it. Left out if it never does. */
+  vertical?: VerticalCard[];
+  /** The same of other traffic and cells, least margin first. Left out if there are none. */
+  others?: OtherSeparationCard[];
 }
 
 /** The separation fell below d_min: once for each time it does. */
@@ -1113,12 +1257,23 @@ export interface SeparationLost {
 export interface SetEngagementCommand {
   command: "set_engagement";
   engagement: Engagement;
+  ident?: string;
 }
 
 /** Change how fast simulated time runs. */
 export interface SetRateCommand {
   command: "set_rate";
   rate: number;
+}
+
+/** The other way round there is a plan. */
+export interface SideRemedy {
+  /** The other way round. */
+  kind: "side";
+  /** T of that plan. */
+  time_to_converge_s: number;
+  /** The same in a sentence. */
+  message: string;
 }
 
 /** Everything a plan depends on, at one instant. */
@@ -1128,6 +1283,8 @@ export interface SituationBody {
   slot_distance_m: number;
   min_separation_m: number;
   wind?: WindBody;
+  traffic?: (LocalTraffic | GeodeticTraffic)[];
+  cells?: (DiscCell | PolygonCell)[];
 }
 
 /** Start a flight from a situation of your own. */
@@ -1140,6 +1297,18 @@ export interface SituationFlightRequest {
   spacing_time_s?: number | null;
   situation: FlownSituationBody;
   flown_intent?: IntentPiece[] | null;
+}
+
+/** With another D there is a plan. */
+export interface SlotDistanceRemedy {
+  /** Another D. */
+  kind: "slot_distance";
+  /** D. */
+  slot_distance_m: number;
+  /** T of that plan. */
+  time_to_converge_s: number;
+  /** The same in a sentence. */
+  message: string;
 }
 
 /** A piece of intent: keep the heading. */
@@ -1242,10 +1411,22 @@ export interface UnsafeAlternativeCard {
   least_separation_m: number;
   /** When it is closest. */
   at_s: number;
+  /** To whom: other traffic, or a cell. Left out for the leader. */
+  ident?: string;
   /** Why it is not flown, e.g. `comes within 4.22 NM at 212 s`. */
   why: string;
   /** It loses the separation. */
   rejected: "separation";
+}
+
+/** A time in which height keeps two aircraft apart: their separation does not count then. */
+export interface VerticalCard {
+  /** Since when. */
+  from_s: number;
+  /** Until when. */
+  to_s: number;
+  /** The least height between the two in between, to be sure of. */
+  least_m: number;
 }
 
 /** Uniform wind as reports give it. */

@@ -26,6 +26,9 @@ class BatchOrder:
     """Names of the columns, where they are not in each chunk: of CSV."""
     whole_ids: bool = False
     """Whether `id` is a column of whole numbers."""
+    amid: bool = False
+    """Whether situations may have other traffic, cells or heights: answers in columns have then
+    more of them."""
     to: Form
     fields: "Fields" = "plan"
     include: "tuple[Include, ...]" = ()

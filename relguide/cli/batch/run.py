@@ -16,6 +16,7 @@ from relguide.cli.batch.source import (
     BLOCK,
     LineChunk,
     flat_names,
+    names_others,
     parquet_chunks,
     read_header,
     text_chunks,
@@ -24,7 +25,7 @@ from relguide.cli.batch.work import AnsweredChunk, answer_chunk, beginning
 from relguide.cli.output import DONE, FAILED, say, write
 from relguide.cli.situation_file import open_input
 from relguide.cli.workers import start_workers
-from relguide.contract.flat import check_columns
+from relguide.contract.flat import check_columns, is_amid
 from relguide.parallel.in_order import in_order
 from relguide.parallel.pool import start_processes
 from relguide.planning.extras import need
@@ -146,7 +147,9 @@ def _open_source(file: str, order: BatchOrder) -> Iterator[OpenSource]:
         if order.source == "csv":
             header, head = read_header(stream, file)
             check_columns(header, file)
-            order = replace(order, header=header)
+            order = replace(order, header=header, amid=is_amid(header))
+        elif order.to != "jsonl":
+            order = replace(order, amid=names_others(stream))
         yield _text_source(stream, order, size, head)
 
 
@@ -178,9 +181,10 @@ def _open_parquet(file: str, order: BatchOrder) -> Iterator[OpenSource]:
         raise ValueError(f"{file} is no Parquet file: {error}.") from None
     with opened:
         schema = opened.schema_arrow
-        check_columns(flat_names(schema), file)
+        names = flat_names(schema)
+        check_columns(names, file)
         whole = "id" in schema.names and pa.types.is_integer(schema.field("id").type)
-        order = replace(order, whole_ids=whole)
+        order = replace(order, whole_ids=whole, amid=is_amid(names))
         rows = parquet_chunks(opened, order.at_once)
 
         def skip(part: Part) -> None:

@@ -4,6 +4,7 @@ import csv
 import select
 from collections.abc import Iterator, Sequence
 from io import UnsupportedOperation
+from mmap import ACCESS_READ, mmap
 from typing import IO, TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
@@ -13,6 +14,8 @@ BLOCK = 1 << 20
 """Bytes read at a time."""
 LONGEST = 64 << 20
 """Longest line [bytes]: more is no file of lines, and would fill the memory."""
+OTHERS = (b'"traffic"', b'"cells"', b'"altitude_m"')
+"""Fields of situations to which answers say more."""
 SIGNATURE = b"\xef\xbb\xbf"
 """What spreadsheets put before UTF-8."""
 
@@ -102,6 +105,18 @@ def read_header(stream: IO[bytes], file: str) -> tuple[tuple[str, ...], bytes]:
     if not any(names):
         raise ValueError(f"{file}: the first line of a CSV file must name its columns.")
     return tuple(name.strip() for name in names), line
+
+
+def names_others(stream: IO[bytes]) -> bool:
+    """Whether a file of JSON lines has situations amid others or at heights; a pipe does not say.
+
+    Answers in columns need to know before the first line is read.
+    """
+    try:
+        with mmap(stream.fileno(), 0, access=ACCESS_READ) as text:
+            return any(text.find(name) >= 0 for name in OTHERS)
+    except (OSError, ValueError):  # a pipe, or empty
+        return False
 
 
 def parquet_chunks(file: "pyarrow.parquet.ParquetFile", at_once: int) -> Iterator[LineChunk]:

@@ -104,7 +104,7 @@ def encode(order: BatchOrder, answers: Sequence[Mapping[str, Any]]) -> bytes:
         return b"".join(
             [orjson.dumps(answer, option=orjson.OPT_APPEND_NEWLINE) for answer in answers]
         )
-    columns = answer_columns(order.fields, order.include)
+    columns = answer_columns(order.fields, order.include, amid=order.amid)
     cells = cells_of_answers(answers, columns)
     if order.to == "csv":
         return _csv_lines(zip(*cells, strict=True))
@@ -115,7 +115,7 @@ def beginning(order: BatchOrder) -> bytes:
     """What a file of answers begins with."""
     if order.to == "jsonl":
         return b""
-    columns = answer_columns(order.fields, order.include)
+    columns = answer_columns(order.fields, order.include, amid=order.amid)
     if order.to == "csv":
         return _csv_lines([tuple(columns)])
     none = cells_of_answers([], columns)

@@ -34,7 +34,13 @@ from relguide.kernels.flight.laws import (
     tas_for_ground_speed,
     track,
 )
-from relguide.kernels.flight.marks import beside_marks, mark_at, sharpest_bend, straight_for
+from relguide.kernels.flight.marks import (
+    beside_marks,
+    mark_at,
+    sharpest_bend,
+    speed_when,
+    straight_for,
+)
 from relguide.kernels.flight.path import heading_on, project, turning_after
 from relguide.units import G0
 
@@ -242,7 +248,10 @@ def _along_marks(
     # on a bend the leader is nearer than along its path: the shorter distance sets the speed
     room = hypot(body.x - leader[at.X], body.y - leader[at.Y]) - task.min_separation
     closing = min(to_slot, room) if room < 0.0 else to_slot
-    keeping = tas_for_ground_speed(body.heading, leader[at.SPEED], wind)
+    speed_there = leader[at.SPEED]
+    if task.spacing > 0.0:  # as fast as the leader was there, asked for a lag before
+        speed_there = speed_when(marks, leader[at.T] - task.spacing + limits.speed_time)
+    keeping = tas_for_ground_speed(body.heading, speed_there, wind)
     tas = closing_tas(closing, keeping, task.tas, regained(limits, body), gains)
     bend = sharpest_bend(marks, s, s + speed * BENDS_AHEAD, speed)
     if bend > 0.0:  # no faster than what can be banked for where the leader turned

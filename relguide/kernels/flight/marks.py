@@ -48,6 +48,15 @@ def mark_at(
 
 
 @njit(cache=True, nogil=True)
+def speed_when(marks: FloatArray, t: float) -> float:
+    """Ground speed at a flight time [m/s]; the first or the last beyond the ends."""
+    i = index_at(marks, T, t)
+    one, other = marks[i], marks[i + 1]
+    share = min(max((t - one[T]) / (other[T] - one[T]), 0.0), 1.0)
+    return float(one[SPEED] + share * (other[SPEED] - one[SPEED]))
+
+
+@njit(cache=True, nogil=True)
 def beside_marks(marks: FloatArray, x: float, y: float, expected: float) -> tuple[float, float]:
     """The point of the flown path next to a place.
 

@@ -10,8 +10,8 @@ from typing import Annotated
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
-from relguide.contract.bodies import UNANCHORED, Anchor
 from relguide.contract.messages import FlightRequest, ScenarioInfo, ScenarioList
+from relguide.contract.places import UNANCHORED, Anchor
 from relguide.flying.flight import Scenario, fly
 from relguide.flying.scenarios import SCENARIOS, scenario
 from relguide.planning.plan import Planner

@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 
-from relguide.contract.bodies import UNANCHORED, Anchor, intent_from_body
 from relguide.contract.flown_bodies import scenario_from_body
+from relguide.contract.intent_bodies import intent_from_body
 from relguide.contract.messages import (
     FlightRequest,
     ScenarioFlightRequest,
     SituationFlightRequest,
 )
+from relguide.contract.places import UNANCHORED, Anchor
 from relguide.contract.refusal import ContractError
 from relguide.flying.flight import Scenario
 from relguide.flying.scenarios import scenario

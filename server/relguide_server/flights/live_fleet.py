@@ -9,7 +9,7 @@ from typing import Annotated
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
-from relguide.contract.bodies import UNANCHORED, Anchor
+from relguide.contract.places import UNANCHORED, Anchor
 from relguide_server.flights.live_flight import FlightLabel, LiveFlight, Source
 from relguide_server.flights.stream import RESTART
 from relguide_server.http.errors import Refusal

@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from relguide.contract.bodies import UNANCHORED, Anchor
+from relguide.contract.places import UNANCHORED, Anchor
 from relguide.contract.wire import tick
 from relguide.flying.documents import Document, Sample
 from relguide.flying.orders import Command

@@ -8,9 +8,10 @@ from fastapi import APIRouter, Depends, Path, Query, Request
 from pydantic import AwareDatetime, BeforeValidator, RootModel
 from starlette.responses import Response, StreamingResponse
 
-from relguide.contract.bodies import UNANCHORED, Anchor, situation_from_body
+from relguide.contract.bodies import situation_from_body
 from relguide.contract.flown_bodies import FlownSituationBody
 from relguide.contract.messages import FlightStatus, from_wire
+from relguide.contract.places import UNANCHORED, Anchor
 from relguide.contract.recorder import VERSION
 from relguide.contract.refusal import ContractError, parse
 from relguide.planning.extras import MissingExtra

@@ -26,8 +26,9 @@ from relguide.contract.messages import (
 )
 from relguide.contract.protocol import PROTOCOL, STREAM
 from relguide.contract.refusal import ContractError, parse
-from relguide.flying.aircraft_documents import GuidanceSample
-from relguide.flying.engagement import Engagement, refusal
+from relguide.flying.aircraft_documents import GuidanceSample, find_by_ident
+from relguide.flying.engagement import refusal
+from relguide.flying.orders import Command as Order
 from relguide.flying.orders import (
     IntentKnown,
     LeaderData,
@@ -35,6 +36,7 @@ from relguide.flying.orders import (
     LeaderSpeed,
     PursuerHeading,
     SetEngagement,
+    order_fault,
 )
 from relguide_server.flights.catalogue import CatalogueOf
 from relguide_server.flights.live_fleet import FleetOf
@@ -225,9 +227,9 @@ async def command_flight(
     if flight.label.replay and not isinstance(command, PlayCommand | PauseCommand | SetRateCommand):
         raise Refusal(409, "This is a recording: it takes play, pause and set_rate only.")
     _command(flight, command)
-    records.note_command(
-        flight_id, t=flight.t, body=command.model_dump_json(), sent_by=address_of(request)
-    )
+    unnamed = {"ident"} if getattr(command, "ident", None) == "" else None
+    body = command.model_dump_json(exclude=unnamed)
+    records.note_command(flight_id, t=flight.t, body=body, sent_by=address_of(request))
     headers = {"Relguide-Recorded": "yes" if await records.saved() else "no"}
     return json_answer(status_of(flight, request).model_dump(), 202, headers=headers)
 
@@ -291,34 +293,56 @@ def _command(flight: LiveFlight, command: Command) -> None:
         case SetRateCommand(rate=rate):
             flight.pace.set_rate(rate)
         case LeaderHeadingCommand():
-            flight.command(_leader_heading(command))
-        case LeaderSpeedCommand(tas_mps=tas):
-            flight.command(LeaderSpeed(tas=tas))
-        case IntentKnownCommand(known=known):
-            flight.command(IntentKnown(known=known))
-        case LeaderDataCommand(received=received):
-            flight.command(LeaderData(received=received))
-        case PursuerHeadingCommand(heading_deg=heading):
-            if _guidance(flight).engagement == "engaged":
-                raise Refusal(409, "Relative guidance flies: disconnect it to select a heading.")
-            flight.command(PursuerHeading(heading=heading_of(heading)))
-        case SetEngagementCommand(engagement=engagement):
-            _refuse_engagement(flight, engagement)
-            flight.command(SetEngagement(engagement=engagement))
+            _order(flight, _leader_heading(command))
+        case LeaderSpeedCommand(tas_mps=tas, ident=ident):
+            _order(flight, LeaderSpeed(tas=tas, ident=ident))
+        case IntentKnownCommand(known=known, ident=ident):
+            _order(flight, IntentKnown(known=known, ident=ident))
+        case LeaderDataCommand(received=received, ident=ident):
+            _order(flight, LeaderData(received=received, ident=ident))
+        case PursuerHeadingCommand(heading_deg=heading, ident=ident):
+            _order_heading(flight, PursuerHeading(heading=heading_of(heading), ident=ident))
+        case SetEngagementCommand(engagement=engagement, ident=ident):
+            _order_engagement(flight, SetEngagement(engagement=engagement, ident=ident))
 
 
-def _guidance(flight: LiveFlight) -> GuidanceSample:
-    """What the guidance of the first link did last."""
-    return flight.history.newest[0].guidance[0]
+def _order(flight: LiveFlight, order: Order) -> None:
+    _expect_flying(flight, order)
+    flight.command(order)
 
 
-def _refuse_engagement(flight: LiveFlight, engagement: Engagement) -> None:
+def _expect_flying(flight: LiveFlight, order: Order) -> None:
+    """Refuse an order to an aircraft that does not fly, or cannot be given it."""
+    for started in flight.history.started:
+        links = [(link.pursuer, link.leader) for link in started.links]
+        fault = order_fault(order, [one.ident for one in started.aircraft], links)
+        if fault:
+            raise refusal_of(ContractError([("ident", fault)]))
+
+
+def _guidance(flight: LiveFlight, ident: str = "") -> GuidanceSample:
+    """What the guidance of a pursuer did last; that of the first link, where none is named."""
+    guidance = flight.history.newest[0].guidance
+    return find_by_ident(guidance, ident) if ident else guidance[0]
+
+
+def _order_heading(flight: LiveFlight, order: PursuerHeading) -> None:
+    _expect_flying(flight, order)
+    if _guidance(flight, order.ident).engagement == "engaged":
+        raise Refusal(409, "Relative guidance flies: disconnect it to select a heading.")
+    flight.command(order)
+
+
+def _order_engagement(flight: LiveFlight, order: SetEngagement) -> None:
     """Refuse what may not follow the present engagement; what is proposed, guidance knows."""
-    why = refusal(_guidance(flight).engagement, engagement, proposed=True)
+    _expect_flying(flight, order)
+    why = refusal(_guidance(flight, order.ident).engagement, order.engagement, proposed=True)
     if why:
         raise Refusal(409, why)
+    flight.command(order)
 
 
 def _leader_heading(command: LeaderHeadingCommand) -> LeaderHeading:
     direction = command.direction or "shorter"
-    return LeaderHeading(heading=heading_of(command.heading_deg), direction=direction)
+    heading = heading_of(command.heading_deg)
+    return LeaderHeading(heading=heading, direction=direction, ident=command.ident)

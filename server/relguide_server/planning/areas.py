@@ -6,7 +6,8 @@ from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
 
 from relguide.contract.area_bodies import AreaAnswer, AreaRequest
-from relguide.contract.bodies import Anchor, SituationBody, situation_from_body
+from relguide.contract.bodies import SituationBody, situation_from_body
+from relguide.contract.places import Anchor
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.present import situation_now
 from relguide.maps.isochrones import (

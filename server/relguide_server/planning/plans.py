@@ -165,9 +165,10 @@ class PlanQuery(BatchQuery):
         default="json",
         alias="format",
         description="`geojson`: a FeatureCollection with the path (`path`), that of the leader "
-        "until it is joined (`leader`), where it is joined (`slot`) and, with `include=paths`, the "
-        "other paths (`other-0` …), each point with its time (`t_s`), beside the members of the "
-        "plan. For situations by latitude and longitude.",
+        "until it is joined (`leader`), where it is joined (`slot`), those of other traffic until "
+        "then (`traffic-0` …) and, with `include=paths`, the other paths (`other-0` …), each point "
+        "with its time (`t_s`); and cells as polygons at t = 0 (`cell-0` …), beside the members of "
+        "the plan. For situations by latitude and longitude.",
     )
 
 

@@ -14,16 +14,15 @@ import orjson
 from relguide.contract.answers import Form, Include, answer, answer_plan
 from relguide.contract.area_bodies import area_to_wire
 from relguide.contract.bodies import (
-    Anchor,
     NamedSituationBody,
     SituationBody,
-    Unanchored,
     path_to_wire,
     situation_from_body,
 )
 from relguide.contract.bulk import answer_line
 from relguide.contract.flight_summary import figures, summarize
 from relguide.contract.messages import FlightRequest
+from relguide.contract.places import Anchor, Unanchored
 from relguide.contract.recorder import recording_of
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.fans import all_fans

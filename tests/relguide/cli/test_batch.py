@@ -13,7 +13,7 @@ import pytest
 from relguide.cli.batch import order as orders
 from relguide.cli.batch.order import form_of
 from relguide.cli.batch.source import text_chunks
-from tests.bodies import BODY, change, on_earth
+from tests.bodies import AMID, BODY, change, on_earth
 from tests.command_line import UNREACHABLE, Run, write
 from tests.relguide.contract.test_flat import flat
 
@@ -21,10 +21,11 @@ PLAIN = change("leader.intent", ...)
 BODIES = [
     {"id": n, **body}
     for n, body in enumerate(
-        (PLAIN, BODY, UNREACHABLE, on_earth((48.0, 2.0), (48.3, 2.5)), change("wind", ...)) * 3
+        (PLAIN, BODY, UNREACHABLE, on_earth((48.0, 2.0), (48.3, 2.5)), change("wind", ...), AMID)
+        * 3
     )
 ]
-"""Plain situations, intents, latitudes, and some without a plan."""
+"""Plain situations, intents, latitudes, others, and some without a plan."""
 
 
 def jsonl(bodies: list[dict[str, Any]], name: str = "all.jsonl") -> str:
@@ -102,8 +103,8 @@ def test_csv_and_parquet_hold_what_json_lines_hold(run: Run, fields: str) -> Non
         options = ("--out", name, "--fields", fields, "--processes", "1")
         code, out, err = run("plan", "--batch", as_parquet(bodies), *options)
         assert code == 1
-        assert out.startswith(f"{name}: 16 answers, in ")
-        assert err == "relguide: 1 line is no valid situation, the first is line 16.\n"
+        assert out.startswith(f"{name}: 19 answers, in ")
+        assert err == "relguide: 1 line is no valid situation, the first is line 19.\n"
     expected = [flat(answer) for answer in lines_of("out.jsonl")]
     table = pq.read_table("out.parquet")
     assert table.schema.field("id").type == pa.int64()
@@ -111,7 +112,7 @@ def test_csv_and_parquet_hold_what_json_lines_hold(run: Run, fields: str) -> Non
     columnar = table.to_pylist()
     with Path("out.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    assert len(expected) == len(columnar) == len(rows) == 16
+    assert len(expected) == len(columnar) == len(rows) == 19
     for answer, cells, texts in zip(expected, columnar, rows, strict=True):
         held = {name: cell for name, cell in cells.items() if cell is not None}
         assert held.keys() == answer.keys() == {name for name, text in texts.items() if text}
@@ -124,6 +125,22 @@ def test_csv_and_parquet_hold_what_json_lines_hold(run: Run, fields: str) -> Non
                     assert held[name] == value
                     assert texts[name] == str(value)
     assert not list(Path().glob("*.part*"))
+
+
+@pytest.mark.parametrize("to", ["csv", "parquet"])
+def test_columns_for_others_are_there_only_where_situations_have_them(run: Run, to: str) -> None:
+    plain = run("plan", "--batch", jsonl(BODIES[:5]), "--to", to, "--out", f"plain.{to}")
+    amid = run("plan", "--batch", jsonl(BODIES[:6]), "--to", to, "--out", f"amid.{to}")
+    assert (plain[0], amid[0]) == (0, 0)
+    columns = []
+    for name in (f"plain.{to}", f"amid.{to}"):
+        if to == "csv":
+            columns.append(Path(name).read_text().splitlines()[0].split(","))
+        else:
+            columns.append(pq.read_schema(name).names)
+    assert not [name for name in columns[0] if "others" in name or "conflict" in name]
+    assert [name for name in columns[1] if name in columns[0]] == columns[0]
+    assert {"separation.others", "conflict.ident", "remedies"} <= set(columns[1])
 
 
 def test_structs_of_parquet_are_the_objects_of_json(run: Run) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.bodies import BODY, change
+from tests.bodies import AMID, BODY, change
 from tests.command_line import NEAR, UNREACHABLE, Run, process, write
 
 ROUND = str(Path(__file__).parents[3] / "examples" / "round.json")
@@ -63,6 +63,18 @@ def test_the_table_is_for_people(run: Run) -> None:
     assert "NM" in out
     assert "…" not in out
     assert max(map(len, out.splitlines())) <= 100
+
+
+def test_the_table_says_how_near_others_come(run: Run) -> None:
+    code, out, _ = run("plan", write(AMID), "--table")
+    assert code == 0
+    lines = out.splitlines()
+    (head,) = [at for at, line in enumerate(lines) if line.strip().startswith("keeps clear of")]
+    others = json.loads(run("plan", write(AMID), "--json")[1])["separation"]["others"]
+    assert [line.split()[0] for line in lines[head + 2 : head + 6]] == [o["ident"] for o in others]
+    for line, other in zip(lines[head + 2 :], others, strict=False):
+        assert f"{other['least_m'] / 1852.0:.2f} NM" in line
+        assert ("out of it" in line) == (other["min_separation_m"] == 0.0)
 
 
 def test_the_table_says_whether_the_gap_is_closed(run: Run) -> None:

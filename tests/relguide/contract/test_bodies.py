@@ -13,8 +13,9 @@ from pyproj import Geod
 
 from relguide import LEFT, RIGHT, FlyStraight, TurnTo, plan
 from relguide.contract.answers import answer
-from relguide.contract.bodies import Unanchored, plan_to_wire, situation_from_json
+from relguide.contract.bodies import plan_to_wire, situation_from_json
 from relguide.contract.messages import PlanAnswer
+from relguide.contract.places import Unanchored
 from relguide.contract.refusal import ContractError
 from relguide.flying.cards import plan_card
 from relguide.planning.frames import LocalPlane

@@ -15,7 +15,7 @@ from relguide.contract.bodies import NamedSituationBody, situation_from_body, si
 from relguide.contract.bulk import Wanted, answer_all, answer_line
 from relguide.contract.columns import columns_of, row_of
 from relguide.contract.refusal import ContractError, parse
-from tests.bodies import BODY, change, on_earth, put
+from tests.bodies import AMID, BODY, change, on_earth, put
 
 PLAIN = change("leader.intent", ...)
 TIMES, PLANS = Wanted(planner=plan, fields="times"), Wanted(planner=plan)
@@ -205,6 +205,43 @@ def test_columns_hold_what_the_library_reads(
         ]
         assert intents.final_headings(np.array([l.heading]))[0] == l.final_heading
     assert changes or sound[0]
+
+
+LEVEL = {"level_change": {"to_altitude_m": 9_000, "rate_mps": 8}}
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"traffic": AMID["traffic"]},
+        {"cells": AMID["cells"]},
+        {"pursuer": {**BODY["pursuer"], "altitude_m": 9_000}},
+        {"leader": {**BODY["leader"], "altitude_m": 9_000}},
+        {"leader": {**BODY["leader"], "intent": [LEVEL]}},
+    ],
+)
+def test_what_rows_do_not_hold_is_planned_by_itself(more: dict[str, Any]) -> None:
+    body = {**BODY, **more}
+    assert row_of(parse(NamedSituationBody, body)) is None
+    alone, among = one(body, TIMES), answer_all([(1, BODY), (2, body), (3, PLAIN)], TIMES)
+    assert among[1] == alone
+    planned = plan(situation_from_json(body)[0])
+    assert isinstance(planned, Plan)
+    assert alone["time_to_converge_s"] == pytest.approx(planned.time_to_converge)
+
+
+def in_the_way() -> dict[str, Any]:
+    """A situation with a cell across the path that is planned without it."""
+    middle = one(BODY)["segments"][1]
+    x, y = ((middle["start"][axis] + middle["end"][axis]) / 2.0 for axis in ("x_m", "y_m"))
+    cell = {"ident": "CB9", "disc": {"x_m": x, "y_m": y, "radius_m": 15_000}}
+    return {**BODY, "cells": [cell]}
+
+
+@pytest.mark.parametrize("wanted", [TIMES, PLANS])
+def test_times_do_not_pass_over_others(wanted: Wanted) -> None:
+    plain, amid = (one(body, wanted) for body in (BODY, in_the_way()))
+    assert amid.get("time_to_converge_s", inf) > plain["time_to_converge_s"] + 1.0
 
 
 def test_latitudes_have_no_row() -> None:

@@ -16,7 +16,7 @@ from relguide.contract.flat import (
     situation_of_row,
 )
 from relguide.contract.refusal import ContractError, parse
-from tests.bodies import BODY, change, on_earth
+from tests.bodies import AMID, BODY, change, on_earth
 
 
 def flat(members: dict[str, Any], path: str = "") -> dict[str, Any]:
@@ -31,7 +31,14 @@ def flat(members: dict[str, Any], path: str = "") -> dict[str, Any]:
 
 @pytest.mark.parametrize(
     "body",
-    [BODY, {"id": "a", **BODY}, change("wind", ...), on_earth((48.0, 2.0), (48.3, 2.5))],
+    [
+        BODY,
+        {"id": "a", **BODY},
+        change("wind", ...),
+        on_earth((48.0, 2.0), (48.3, 2.5)),
+        change("pursuer.altitude_m", 9000),
+        AMID,
+    ],
 )
 def test_a_row_is_the_body_that_it_stands_for(body: dict[str, Any]) -> None:
     cells = flat(body)
@@ -98,6 +105,35 @@ def test_an_answer_is_a_row_and_nothing_is_left_out(include: Any) -> None:
             for step in name.split("."):
                 there = there[step]
             assert (json.loads(cell) if columns[name] == "json" else cell) == there  # type: ignore[arg-type]
+
+
+def test_others_may_be_rows_of_their_own() -> None:
+    """As Parquet holds them: each has all columns, and so have the pieces of its intent."""
+    pieces = [{"straight_s": 60.0, "level_change": None}]
+    flying = [{"ident": "A", "altitude_m": None, "intent": pieces}, {"ident": "B", "intent": None}]
+    assert situation_of_row(("traffic",), (flying,)) == {
+        "traffic": [{"ident": "A", "intent": [{"straight_s": 60.0}]}, {"ident": "B"}]
+    }
+
+
+@pytest.mark.parametrize("name", ["traffic", "cells"])
+def test_others_that_are_no_json_are_refused(name: str) -> None:
+    with pytest.raises(ContractError, match=rf"{name}: This is not JSON"):
+        situation_of_row((name,), ("BAW12",))
+
+
+def test_an_answer_amid_others_is_a_row_and_nothing_is_left_out() -> None:
+    columns = answer_columns("plan", (), amid=True)
+    plain = answer_columns("plan", ())
+    assert [name for name in columns if name in plain] == list(plain)
+    assert {
+        "separation.others", "separation.vertical", "conflict.ident", "conflict.least_m", "remedies"
+    } <= set(columns) - set(plain)  # fmt: skip
+    reply = answer(*situation_from_json(AMID), plan)
+    row = [cell for (cell,) in cells_of_answers([reply], columns)]
+    cells = {name: cell for name, cell in zip(columns, row, strict=True) if cell is not None}
+    assert cells.keys() == flat(reply).keys()
+    assert json.loads(str(cells["separation.others"])) == reply["separation"]["others"]
 
 
 def test_times_have_columns_of_their_own() -> None:

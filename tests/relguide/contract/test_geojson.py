@@ -1,7 +1,7 @@
 """A plan as GeoJSON: lines on the earth that are the plan's path, the leader's, and the others'."""
 
 import itertools
-from math import cos, hypot, radians
+from math import cos, hypot, pi, radians
 from typing import Any
 
 import numpy as np
@@ -131,6 +131,58 @@ def test_no_plan_has_no_features() -> None:
     given = answer(situation, anchor, plan, form="geojson")
     assert (given["type"], given["features"]) == ("FeatureCollection", [])
     assert given["status"] == "no_plan"
+
+
+def area_of(geometry: dict[str, Any]) -> list[list[list[list[float]]]]:
+    cut = geometry["type"] == "MultiPolygon"
+    return geometry["coordinates"] if cut else [geometry["coordinates"]]
+
+
+@pytest.mark.parametrize("lon", [8.0, 179.95, -179.95, 180.0])
+def test_others_are_lines_and_areas(lon: float) -> None:
+    body = placed(50.0, lon)
+    east = (lon + 2.0 + 180.0) % 360.0 - 180.0
+    flying = {"lat_deg": 51.0, "lon_deg": east, "heading_deg": 10.0, "tas_mps": 200.0}
+    body["traffic"] = [{"ident": "BAW12", "altitude_m": 9e3, "min_separation_m": 5e3, **flying}]
+    disc = {"lat_deg": 53.0, "lon_deg": lon, "radius_m": 25e3}
+    corners = [(47.0, lon), (47.0, east), (48.0, lon)]
+    polygon = [{"lat_deg": a, "lon_deg": b} for a, b in corners]
+    body["cells"] = [
+        {"ident": "CB1", "disc": disc, "velocity_mps": [10.0, 5.0], "growth_mps": 1.0},
+        {"ident": "CB2", "polygon": polygon},
+    ]
+    situation, plane = situation_from_json(body)
+    assert isinstance(plane, LocalPlane)
+    features = answer(situation, plane, plan, form="geojson")["features"][3:]
+    assert [feature["id"] for feature in features] == ["traffic-0", "cell-0", "cell-1"]
+    traffic, around, inside = features
+    assert traffic["properties"]["ident"] == "BAW12"
+    assert traffic["properties"]["min_separation_m"] == 5e3
+    assert traffic["properties"]["altitude_m"] == 9e3
+    assert lines_of(traffic)[0][0] == pytest.approx([east, 51.0], abs=1e-6)
+    assert around["properties"]["velocity_mps"] == pytest.approx([10.0, 5.0], abs=1e-5)
+    assert around["properties"]["growth_mps"] == 1.0
+    # round the disc, counter-clockwise; cut in two where it lies across 180°
+    assert around["geometry"]["type"] == ("Polygon" if lon == 8.0 else "MultiPolygon")
+    x, y = plane.to_local(53.0, lon)
+    for (ring,) in area_of(around["geometry"]):
+        assert ring[0] == ring[-1]
+        assert max(a for a, _ in ring) - min(a for a, _ in ring) < 10.0
+        for a, b in ring:
+            px, py = plane.to_local(b, a)
+            assert hypot(px - x, py - y) < 25e3 * 1.001
+    swept = sum(_area(ring, plane) for (ring,) in area_of(around["geometry"]))
+    assert swept == pytest.approx(pi * 25e3**2, rel=2e-3)
+    swept = sum(_area(ring, plane) for (ring,) in area_of(inside["geometry"]))
+    flat = [plane.to_local(a, b) for a, b in corners]
+    (x0, y0), (x1, y1), (x2, y2) = flat
+    assert swept == pytest.approx(abs((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)) / 2, rel=2e-3)
+
+
+def _area(ring: list[list[float]], plane: LocalPlane) -> float:
+    """Positive if it goes round counter-clockwise [m²]."""
+    points = [plane.to_local(b, a) for a, b in ring]
+    return sum(a * d - b * c for (a, b), (c, d) in itertools.pairwise(points)) / 2.0
 
 
 def test_a_line_keeps_what_else_its_points_have_where_it_is_cut() -> None:

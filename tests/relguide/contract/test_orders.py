@@ -6,8 +6,10 @@ from math import pi
 
 import pytest
 
-from relguide.contract.orders import MAX_LINE, Order, commands_of, read_orders
+from relguide.contract.orders import MAX_LINE, Order, commands_of, expect_flying, read_orders
+from relguide.flying.flight import world_of
 from relguide.flying.orders import IntentKnown, LeaderHeading, LeaderSpeed
+from relguide.flying.scenarios import fig_6
 
 ORDERS = (
     b'{"t_s": 60, "intent_known": false}\n'
@@ -26,6 +28,15 @@ def test_orders_are_read_in_order() -> None:
         Order(950.5, LeaderSpeed(tas=100.0)),
     )
     assert read_orders(BytesIO(b""), "a.jsonl") == ()
+
+
+def test_an_order_may_name_who_is_to_do_so() -> None:
+    (order,) = read_orders(BytesIO(b'{"t_s": 9, "leader_tas_mps": 210, "ident": "BAW12"}'), "a")
+    assert order == Order(9.0, LeaderSpeed(tas=210.0, ident="BAW12"))
+    world = world_of(fig_6(intent_known=True))
+    with pytest.raises(ValueError, match=r"^The order at 9 s: There is no aircraft 'BAW12' to "):
+        expect_flying((order,), world)
+    expect_flying((Order(9.0, LeaderSpeed(tas=210.0, ident="LEADER")),), world)
 
 
 def test_each_is_given_once_at_its_time() -> None:

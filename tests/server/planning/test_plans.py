@@ -4,13 +4,19 @@ import json
 import logging
 import socket
 import time
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from relguide_server.planning.plan_service import PlanService
-from relguide_server.planning.plans import EXAMPLE
+from relguide_server.planning.plans import EXAMPLE, Answer
 
 from benchmarks.service.situations import HEAD_ON
+from relguide.contract.refusal import parse
+from tests.bodies import AMID, changed
+from tests.bodies import BODY as PLAIN
 from tests.server.serving import TestClient, ideal_app, serve
 from tests.server.test_api import is_problem
 
@@ -139,3 +145,101 @@ def test_planners_are_compared_side_by_side() -> None:
     assert exact["segments"] == plan["segments"]
     assert printed["status"] == "refused"
     assert printed["message"].startswith("Not flown: it ends ")
+
+
+# --- amid others --------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[TestClient]:
+    with TestClient(ideal_app()) as client:
+        yield client
+
+
+def test_a_plan_amid_others_says_how_near_it_comes(client: TestClient) -> None:
+    plain, amid = (client.post(f"{PATH}?max_ms=10000", json=body).json() for body in (PLAIN, AMID))
+    others = amid["separation"].pop("others")
+    assert {other["ident"] for other in others} == {"BAW12", "AFR7", "CB1", "CB2"}
+    assert {**amid, "compute_ms": 0} == {**plain, "compute_ms": 0}
+    parse(Answer, amid)
+
+
+def test_what_is_wrong_with_others_is_refused_by_its_path(client: TestClient) -> None:
+    for path, value, where in (
+        ("traffic.0.tas_mps", 1, "traffic[0].tas_mps"),
+        ("cells.1.polygon", [[0, 0], [1, 1], [2, 2]], "cells[1].polygon"),
+        ("cells.0.ident", "BAW12", "cells[0].ident"),
+    ):
+        problem = is_problem(client.post(PATH, json=changed(AMID, path, value)), 422, PATH)
+        assert [error["path"] for error in problem["errors"]] == [where]
+    body = {"situation": changed(AMID, "traffic.1.ident", "")}
+    problem = is_problem(client.post("/api/v1/flights", json=body), 422, "/api/v1/flights")
+    assert [error["path"] for error in problem["errors"]] == ["situation.traffic[1].ident"]
+
+
+def test_a_batch_has_lines_with_and_without_others(client: TestClient) -> None:
+    bodies = [{**PLAIN, "id": 0}, {**AMID, "id": 1}, {**PLAIN, "id": 2, "cells": AMID["cells"][:1]}]
+    answers = client.post(f"{PATH}/batch", json=bodies).json()
+    idents = [
+        [other["ident"] for other in answer["separation"].get("others", [])] for answer in answers
+    ]
+    assert [answer["id"] for answer in answers] == [0, 1, 2]
+    assert [len(found) for found in idents] == [0, 4, 1]
+    wrong = [bodies[0], changed(bodies[1], "traffic.0.heading_deg", "north")]
+    lines = "\n".join(json.dumps(body) for body in wrong)
+    kind = {"Content-Type": "application/x-ndjson"}
+    sent = client.post(f"{PATH}/batch", content=lines.encode(), headers=kind)
+    fine, refused = (json.loads(line) for line in sent.text.splitlines())
+    assert (fine["status"], refused["status"]) == ("planned", "invalid")
+    assert refused["message"].startswith("traffic[0].heading_deg: must be a number")
+
+
+def test_what_is_included_and_compared_comes_amid_others(client: TestClient) -> None:
+    asked = "alternatives,paths,optimality,flown"
+    reply = client.post(f"{PATH}?include={asked}&max_ms=10000", json=AMID)
+    assert reply.status_code == 200
+    assert reply.json()["separation"]["others"]
+    for planner in ("exact", "network"):
+        assert client.post(f"{PATH}?planner={planner}", json=AMID).json()["separation"]["others"]
+    compared = client.post(f"{PATH}/compare", json=AMID).json()["planners"]
+    assert compared[0]["status"] == "planned"
+
+
+def test_an_area_says_that_others_are_not_counted(client: TestClient) -> None:
+    grid = {"columns": 9, "rows": 7}
+    plain, amid = (
+        client.post("/api/v1/areas", json={"situation": body, **grid}).json()
+        for body in (PLAIN, AMID)
+    )
+    added = [note for note in amid["notes"] if note not in plain["notes"]]
+    assert len(added) == 1
+    assert added[0].startswith("Other traffic, cells and heights are not counted.")
+    assert amid["contours"] == plain["contours"]
+
+
+json_values = st.recursive(
+    st.none() | st.booleans() | st.integers(-(10**20), 10**20) | st.floats(-1e9, 1e9) | st.text(),
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(st.sampled_from([*AMID["traffic"][0], *AMID["cells"][0]]), inner)
+    ),
+    max_leaves=6,
+)
+PATHS = [
+    "traffic", "traffic.0", "cells", "cells.0", "cells.1", "cells.0.disc", "cells.1.polygon",
+    "cells.1.polygon.0", "cells.0.velocity_mps", "pursuer.altitude_m", "traffic.0.intent.1",
+    *(f"traffic.0.{name}" for name in AMID["traffic"][0]),
+    *(f"cells.0.{name}" for name in AMID["cells"][0]),
+]  # fmt: skip
+
+
+@pytest.mark.slow
+@given(path=st.sampled_from(PATHS), value=json_values)
+@settings(
+    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+def test_mutated_others_are_never_a_mistake(client: TestClient, path: str, value: Any) -> None:
+    sent = client.post(f"{PATH}?max_ms=20", json=changed(AMID, path, value))
+    assert sent.status_code in (200, 422)
+    if sent.status_code == 422:
+        assert sent.json()["errors"]

@@ -1,0 +1,50 @@
+"""Other traffic and weather cells for people: how near a plan comes, or who is in the way."""
+
+from collections.abc import Iterable
+
+from rich.console import Console
+from rich.text import Text
+
+from relguide.cli.shared_tables import clock, miles, table
+from relguide.flying.plan_documents import NoPlanCard, Separation, VerticalCard
+from relguide.units import FT
+
+
+def print_others(console: Console, separation: Separation) -> None:
+    """Print when height keeps the leader apart, and a row for each of the others."""
+    if separation.vertical:
+        console.print(f"Height keeps the leader apart {_by_height(separation.vertical)}.")
+    if not separation.others:
+        return
+    shown = table("keeps clear of")
+    for heading in ("least", "to keep", "at", "proved above"):
+        shown.add_column(heading, justify="right", no_wrap=True)
+    kept_by_height = any(other.vertical for other in separation.others)
+    if kept_by_height:
+        shown.add_column("height keeps it apart")
+    for other in separation.others:
+        limit = miles(other.min_separation) if other.min_separation else "out of it"
+        row = miles(other.least), limit, clock(other.at), miles(other.proved_above)
+        height = (_by_height(other.vertical),) if kept_by_height else ()
+        shown.add_row(other.ident, *row, *height)
+    console.print(shown)
+
+
+def print_conflict(console: Console, card: NoPlanCard) -> None:
+    """Print who is in the way, when and how near, and what helps."""
+    if card.conflict is not None:
+        found, limit = card.conflict, card.conflict.min_separation
+        near = f"{miles(found.least)} of {miles(limit)}"
+        if limit == 0.0:
+            near = f"{miles(-found.least)} inside"
+        who = Text.assemble("In the way: ", (found.ident, "bold"))
+        console.print(who + f", {near} after {clock(found.at)}.")
+    for remedy in card.remedies:
+        console.print(Text("What helps: ", style="green") + remedy.message)
+
+
+def _by_height(kept: Iterable[VerticalCard]) -> str:
+    return ", ".join(
+        f"by {part.least / FT:,.0f} ft from {clock(part.from_)} to {clock(part.to)}"
+        for part in kept
+    )

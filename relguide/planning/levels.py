@@ -1,0 +1,84 @@
+"""The pursuer's own level as a discrete choice: when to go to the level of its leader.
+
+Three choices, each of them planned: with the leader, to its level at once and down or up with it;
+to stay as long as possible, and change the level just before joining; and to fly 1,000 ft above or
+below the leader's last level meanwhile. A change of level takes the planner's constant airspeed.
+"""
+
+from dataclasses import replace
+
+from relguide.planning.heights import (
+    JOINED_HEIGHT,
+    START_TOLERANCE,
+    VERTICAL_MINIMUM,
+    heights_of,
+)
+from relguide.planning.intent import LevelChange
+from relguide.planning.limits import ALTITUDE
+from relguide.planning.situation import Situation
+from relguide.units import FT, Metre, MetrePerSecond, Second
+
+LEVEL_RATE: MetrePerSecond = 1_000.0 * FT / 60.0
+"""How fast a pursuer climbs or descends by plan [m/s]: 1,000 ft/min, which airliners do at any
+level."""
+
+
+def chooses_level(situation: Situation) -> bool:
+    """Whether the pursuer has to change its level to join, and has not declared how it does."""
+    own, leader = heights_of(situation.pursuer), heights_of(situation.leader)
+    if own.altitude is None or leader.altitude is None or situation.pursuer.levels:
+        return False
+    return bool(leader.changes) or abs(own.altitude - leader.altitude) > JOINED_HEIGHT
+
+
+def with_leader(situation: Situation) -> Situation:
+    """To the leader's level at once, and then as the leader does."""
+    leader = heights_of(situation.leader)
+    assert leader.altitude is not None
+    levels = list(leader.changes)
+    if not levels or levels[0].at > 0.0:
+        levels.insert(0, LevelChange(at=0.0, to_altitude=leader.altitude, rate=LEVEL_RATE))
+    return _flying(situation, tuple(levels))
+
+
+def meanwhile(situation: Situation) -> tuple[Metre, ...]:
+    """Levels 1,000 ft above and below the leader's last one [m], the nearer to ours first."""
+    own, final = situation.pursuer.altitude, heights_of(situation.leader).final_altitude
+    assert own is not None
+    assert final is not None
+    levels = [final + VERTICAL_MINIMUM, final - VERTICAL_MINIMUM]
+    levels = [level for level in levels if ALTITUDE.admits(level)]
+    return tuple(sorted(levels, key=lambda level: abs(level - own)))
+
+
+def changing_late(situation: Situation, level: Metre, time: Second) -> Situation | None:
+    """At a level as long as possible, and at the leader's last one by a time.
+
+    Args:
+        situation: with the pursuer at its own level.
+        level: where it stays until then; it goes there at once [m].
+        time: when it joins [s].
+
+    Returns:
+        the same with both changes; `None` if they take longer.
+    """
+    own, final = situation.pursuer.altitude, heights_of(situation.leader).final_altitude
+    assert own is not None
+    assert final is not None
+    at = time - START_TOLERANCE - abs(final - level) / LEVEL_RATE
+    if at < abs(level - own) / LEVEL_RATE:
+        return None
+    levels = [LevelChange(at=at, to_altitude=final, rate=LEVEL_RATE)]
+    if level != own:
+        levels.insert(0, LevelChange(at=0.0, to_altitude=level, rate=LEVEL_RATE))
+    return _flying(situation, tuple(levels))
+
+
+def is_at_level(situation: Situation, time: Second) -> bool:
+    """Whether the pursuer is at the leader's level at a time [s], by what both declare."""
+    own, leader = heights_of(situation.pursuer).at(time), heights_of(situation.leader).at(time)
+    return own is None or leader is None or abs(own - leader) <= JOINED_HEIGHT
+
+
+def _flying(situation: Situation, levels: tuple[LevelChange, ...]) -> Situation:
+    return replace(situation, pursuer=replace(situation.pursuer, levels=levels))

@@ -1,0 +1,156 @@
+"""The pursuer's own level: faster where height keeps them apart, and never near in both at once."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from relguide import (
+    ChangeLevel,
+    FlyStraight,
+    Leader,
+    LevelChange,
+    NoPlan,
+    Plan,
+    Pursuer,
+    Situation,
+    Traffic,
+    certify,
+    plan,
+)
+from relguide.planning.heights import VERTICAL_MINIMUM, WHOLE_METRE, counted, heights_of
+from relguide.planning.levels import is_at_level
+from relguide.units import DEG, FT, NM
+from tests.relguide.planning.test_heights import flown
+
+FL = 100.0 * FT
+
+
+def situations(rng: np.random.Generator) -> Situation:
+    """Two aircraft on levels of their own; the leader descends in every other one."""
+    descends = (FlyStraight(duration=60.0), ChangeLevel(to_altitude=310 * FL, rate=7.0))
+    x, y = rng.uniform(-60e3, 60e3, 2)
+    return Situation(
+        pursuer=Pursuer(
+            x=x, y=y, heading=rng.uniform(0.0, 6.0), tas=230.0, max_bank=25.0 * DEG,
+            altitude=FL * (350.0 - rng.choice([0.0, 20.0, 40.0])),
+        ),
+        leader=Leader(
+            x=0.0, y=0.0, heading=0.0, tas=210.0, altitude=350 * FL,
+            intent=descends if rng.random() < 0.5 else (),
+        ),
+        slot_distance=7.5 * NM,
+        min_separation=5.0 * NM,
+    )  # fmt: skip
+
+
+def unaware(situation: Situation) -> Situation:
+    return replace(situation, pursuer=replace(situation.pursuer, altitude=None))
+
+
+def test_no_plan_is_below_both_minima_at_once_however_the_levels_are_flown():
+    rng = np.random.default_rng(3)
+    near = 0
+    for _ in range(150):
+        situation = situations(rng)
+        answer = plan(situation)
+        if isinstance(answer, NoPlan):
+            continue
+        assert answer.certificate.holds
+        assert is_at_level(answer.situation, answer.time_to_converge)
+        times = np.arange(0.0, answer.time_to_converge, 1.0)
+        own, leader = answer.sample(times), situation.leader.trajectory.sample(times)
+        apart = np.hypot(own.x - leader.x, own.y - leader.y)
+        near += int((apart < 5.0 * NM).sum())
+        for _ in range(8):
+            heights = [
+                flown(heights_of(one), rng, times)
+                for one in (answer.situation.pursuer, situation.leader)
+            ]
+            above = abs(heights[0] - heights[1])
+            kept = (apart >= 5.0 * NM - 1.0) | (above >= VERTICAL_MINIMUM - WHOLE_METRE - 1e-6)
+            assert kept.all()
+    assert near > 500
+
+
+def test_height_makes_plans_faster_and_never_faster_than_the_bound_without_the_limit():
+    rng = np.random.default_rng(4)
+    sooner = 0
+    for _ in range(150):
+        situation = situations(rng)
+        answer, alone = plan(situation), plan(unaware(situation))
+        if isinstance(answer, NoPlan) or isinstance(alone, NoPlan):
+            continue
+        free = plan(replace(unaware(situation), min_separation=0.0))
+        assert isinstance(free, Plan)
+        assert answer.time_to_converge >= free.time_to_converge - 1e-6
+        assert answer.optimality.lower_bound <= answer.time_to_converge + 1e-6
+        sooner += answer.time_to_converge < alone.time_to_converge - 1.0
+    assert sooner >= 5
+
+
+def test_equal_or_unknown_levels_change_nothing():
+    rng = np.random.default_rng(5)
+    for _ in range(30):
+        situation = situations(rng)
+        situation = replace(situation, leader=replace(situation.leader, intent=()))
+        before = unaware(situation)
+        same = replace(
+            situation, pursuer=replace(situation.pursuer, altitude=situation.leader.altitude)
+        )
+        one, other = plan(before), plan(same)
+        if isinstance(one, NoPlan) or isinstance(other, NoPlan):
+            assert one == other
+            continue
+        assert other.levels == ()
+        assert replace(other, situation=before) == one
+
+
+def test_a_leader_far_above_is_passed_beneath_and_the_certificate_says_when():
+    below = Situation(
+        pursuer=Pursuer(
+            x=0.0, y=60e3, heading=180.0 * DEG, tas=230.0, max_bank=25.0 * DEG, altitude=290 * FL
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=210.0, altitude=350 * FL),
+        slot_distance=7.5 * NM,
+        min_separation=5.0 * NM,
+    )
+    assert counted(heights_of(below.pursuer), heights_of(below.leader)) == ()
+    ahead = below.pursuer.flying(plan(unaware(below)).trajectory.segments)
+    found = certify(ahead, below)
+    assert found.holds
+    (kept,) = found.vertical
+    assert kept == (0.0, ahead.duration, pytest.approx(6_000.0 * FT))
+
+
+def test_traffic_at_another_level_does_not_count_and_is_told_with_its_height():
+    other = Traffic(
+        ident="BAW12", x=20e3, y=0.0, heading=270.0 * DEG, tas=200.0, min_separation=5.0 * NM,
+        altitude=370 * FL,
+    )  # fmt: skip
+    situation = Situation(
+        pursuer=Pursuer(
+            x=0.0, y=-40e3, heading=0.0, tas=230.0, max_bank=25.0 * DEG, altitude=350 * FL
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=210.0, altitude=350 * FL),
+        slot_distance=7.5 * NM,
+        min_separation=5.0 * NM,
+    )
+    alone = plan(situation)
+    assert isinstance(alone, Plan)
+    for altitude, holds in ((370 * FL, True), (None, False)):
+        crossing = replace(other, x=8e3, y=-20e3, altitude=altitude)
+        amid = replace(situation, others=(crossing,))
+        found = certify(alone.trajectory, amid)
+        assert found.holds is holds
+        assert found.others[0].least_separation < 5.0 * NM
+        assert bool(found.others[0].vertical) is holds
+
+
+def test_a_pursuer_keeps_the_levels_it_declares():
+    levels = (LevelChange(at=30.0, to_altitude=330 * FL, rate=5.0),)
+    situation = situations(np.random.default_rng(1))
+    declared = replace(situation, pursuer=replace(situation.pursuer, levels=levels))
+    answer = plan(declared)
+    assert isinstance(answer, Plan)
+    assert answer.levels == levels
