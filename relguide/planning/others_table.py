@@ -10,6 +10,7 @@ from relguide.kernels.contact.others import Others, forbidden_arrivals
 from relguide.planning.aircraft import Traffic
 from relguide.planning.cells import Cell
 from relguide.planning.certificate import AROUND_CELLS, FOLLOWED, cell_shape
+from relguide.planning.heights import UNKNOWN, counted, heights_of
 from relguide.planning.situation import Other, Situation
 from relguide.planning.slot import SlotFrame
 from relguide.planning.tables import leader_table, pieces_table
@@ -51,15 +52,20 @@ def others_of(situation: Situation, frame: SlotFrame, *, until: float = inf) -> 
     corners = [shape.corners for shape in shapes]
     all_pieces = [shape.pieces for shape in shapes]
     limits = [(shape.speed, _eased(shape, frame), shape.growth, shape.reach) for shape in shapes]
-    counted = [np.array([(0.0, inf)]) for _ in shapes]
+    own = heights_of(situation.pursuer)
+    heights = [UNKNOWN if isinstance(o, Cell) else heights_of(o) for o in situation.others]
+    windows = [
+        np.array(counted(own, one)).reshape(-1, 2) / scale
+        for one in (heights_of(situation.leader), *heights)
+    ]
     others = Others(
         pieces=np.concatenate(all_pieces),
         first=_firsts(all_pieces),
         limits=np.array(limits),
         corners=np.concatenate(corners),
         corner=_firsts(corners),
-        counted=np.concatenate(counted),
-        window=_firsts(counted),
+        counted=np.concatenate(windows),
+        window=_firsts(windows),
         forbidden=np.empty((0, 2)),
         alpha=frame.alpha,
         t_release=frame.t_release,

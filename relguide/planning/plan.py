@@ -13,13 +13,21 @@ from numpy.typing import ArrayLike
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import SLACK
+from relguide.planning.amid import (
+    MOST_TRIED,
+    around,
+    just_as_it_opens,
+    load_kernels,
+    lost_already,
+    nearest_miss,
+)
 from relguide.planning.arrival import Arrival, arrival
 from relguide.planning.at_release import first_at_release
 from relguide.planning.candidate import Candidate
-from relguide.planning.certificate import Certificate, certify, judge
+from relguide.planning.certificate import Certificate, OtherSeparation, certify, judge
 from relguide.planning.constrained_path import constrained_path
-from relguide.planning.deadline import TO_LOOK_ROUND, TO_PUT_DOWN, end_of
-from relguide.planning.heights import ALWAYS, counted, heights_of
+from relguide.planning.deadline import TO_LOOK_ROUND, TO_PUT_DOWN, end_of, left_until
+from relguide.planning.heights import counts_now, heights_of
 from relguide.planning.inputs import expect, number
 from relguide.planning.intent import LevelChange
 from relguide.planning.least_bad import (
@@ -35,7 +43,8 @@ from relguide.planning.levels import (
     meanwhile,
     with_leader,
 )
-from relguide.planning.phrases import distance
+from relguide.planning.limits import DISTANCE
+from relguide.planning.phrases import comes_too_close, distance
 from relguide.planning.sampling import Samples
 from relguide.planning.situation import Situation
 from relguide.planning.straight_ahead import first_candidate
@@ -43,7 +52,7 @@ from relguide.planning.tables import leader_path, path_of
 from relguide.planning.trajectory import Trajectory, pieces_text
 from relguide.planning.wind import CALM
 from relguide.planning.words import HORIZON, Candidates, candidates
-from relguide.units import KT, Metre, Millisecond, Second
+from relguide.units import KT, NM, Metre, Millisecond, Second
 
 Proof = Literal["relaxation", "certified", "bound", "none"]
 """What proves a plan: the best plan without the limit keeps it; a lower bound within 0.1 s, which
@@ -225,6 +234,8 @@ class NoPlan:
 
 AS_FAST: Second = 1e-6
 """Times closer than this count as equal: the same path found twice differs by rounding [s]."""
+SLOT_CHANGES: tuple[Metre, ...] = (1.0 * NM, -1.0 * NM, 2.0 * NM, -2.0 * NM, 4.0 * NM, 8.0 * NM)
+"""By how much another D is tried, in turn, until one helps [m]."""
 Planner = Callable[[Situation], Plan | NoPlan]
 """The one protocol of all planners."""
 _Chosen = tuple[Candidate, Certificate, Optimality]
@@ -257,8 +268,8 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
         ValueError: if the deadline is out of range, or `situation` is no situation.
     """
     expect("situation", situation, Situation)
-    if situation.others:
-        return _amid_others(situation, deadline)
+    if situation.others and deadline is not None:
+        load_kernels()
     until = end_of(deadline)
     if chooses_level(situation):
         return _plan_by_level(situation, until)
@@ -267,6 +278,8 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
 
 def _plan(situation: Situation, until: float) -> Plan | NoPlan:
     """`plan` where the pursuer's level is settled."""
+    if situation.others:
+        return _amid_others(situation, until)
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
     separation = _separation(situation)
@@ -308,13 +321,102 @@ def plan_at_once(situation: Situation) -> Plan | NoPlan | None:
     return None if chosen is None else _plan_of(chosen, situation, started)
 
 
-def _amid_others(situation: Situation, deadline: Second | None) -> Plan | NoPlan:
+def _amid_others(situation: Situation, until: float) -> Plan | NoPlan:
     """As `plan`, where there is more to keep clear of than the leader."""
-    from relguide.planning import amid  # most who plan have no others
+    answer = _find_amid_others(situation, until)
+    if not isinstance(answer, _Blocked):
+        return answer
+    later = islice(candidates(situation).later, MOST_TRIED)
+    tried = [answer.alone.trajectory, *(candidate.trajectory for candidate in later)]
+    nearest = nearest_miss(tried, situation)
+    helps = tuple(_remedies(situation, until))
+    why = comes_too_close(
+        nearest.ident, nearest.least_separation, nearest.min_separation, nearest.at_time
+    )
+    missed = f"No path to the slot was found that keeps clear of all: the best one {why}."
+    return NoPlan(
+        reason=Reason.TRAFFIC,
+        message=" ".join((missed, *(remedy.message for remedy in helps))),
+        lower_bound=answer.alone.optimality.lower_bound,
+        conflict=_conflict(nearest),
+        remedies=helps,
+    )
 
-    if deadline is not None:
-        amid.load_kernels()
-    return amid.plan_amid(situation, until=end_of(deadline))
+
+@dataclass(frozen=True, slots=True)
+class _Blocked:
+    """That no path was found amid others, and the plan for the leader alone."""
+
+    alone: Plan
+
+
+def _find_amid_others(situation: Situation, until: float) -> Plan | NoPlan | _Blocked:
+    """The plan for the leader alone if it keeps clear of all, or the fastest path found that does.
+
+    Leaving others out relaxes what is asked, so the bound of the one holds for the other.
+    """
+    started = perf_counter_ns()
+    alone = plan(replace(situation, others=()), deadline=left_until(until))
+    if isinstance(alone, NoPlan) and alone.reason == Reason.SEPARATION_ALREADY_LOST:
+        return alone
+    lost = lost_already(situation)
+    if lost is not None:
+        nearest, message = lost
+        reason = Reason.SEPARATION_ALREADY_LOST
+        return NoPlan(reason=reason, message=message, conflict=_conflict(nearest))
+    if isinstance(alone, NoPlan):
+        return alone
+    certificate = certify(alone.trajectory, situation)
+    if certificate.holds:
+        took = (perf_counter_ns() - started) * 1e-6
+        return replace(alone, situation=situation, certificate=certificate, compute_time=took)
+    bound, until = alone.optimality.lower_bound, until - TO_PUT_DOWN
+    found = just_as_it_opens(situation) or around(situation, until)
+    if found is not None:
+        candidate, certificate = found
+        time = candidate.time_to_converge
+        proof: Proof = "relaxation" if time <= bound + AS_FAST else "bound"
+        optimality = Optimality(proof=proof, lower_bound=min(bound, time))
+        return _plan_of((candidate, certificate, optimality), situation, started)
+    if time_is_up(until):
+        return NoPlan(
+            reason=Reason.DEADLINE,
+            message="No path that keeps clear of all was found by the deadline; none is faster "
+            f"than {bound:.0f} s. A later deadline may help.",
+            lower_bound=bound,
+        )
+    return _Blocked(alone)
+
+
+def _remedies(situation: Situation, until: float) -> Iterator[Remedy]:
+    """What would help where no path was found that keeps clear of all, each tried.
+
+    To ask later, or to pass on the other side, is none: a path that first flies on, or round the
+    other side, is a path now, and was searched.
+    """
+    for change in SLOT_CHANGES:
+        slot_distance = situation.slot_distance + change
+        if not situation.min_separation <= slot_distance <= DISTANCE.high or time_is_up(until):
+            continue
+        answer = _find_amid_others(replace(situation, slot_distance=slot_distance), until)
+        if isinstance(answer, Plan):
+            yield Remedy(
+                kind="slot_distance",
+                value=slot_distance,
+                time_to_converge=answer.time_to_converge,
+                message=f"{distance(slot_distance)} behind the leader there is a plan of "
+                f"{answer.time_to_converge:.0f} s.",
+            )
+            return
+
+
+def _conflict(nearest: OtherSeparation) -> Conflict:
+    return Conflict(
+        ident=nearest.ident,
+        at_time=nearest.at_time,
+        least_separation=nearest.least_separation,
+        min_separation=nearest.min_separation,
+    )
 
 
 def _at_once_amid_others(situation: Situation) -> Plan | NoPlan | None:
@@ -336,8 +438,7 @@ def _separation(situation: Situation) -> Metre:
 
 def _counts_now(situation: Situation) -> bool:
     """Whether the horizontal minimum counts at t = 0."""
-    when = counted(heights_of(situation.pursuer), heights_of(situation.leader))
-    return when == ALWAYS or (when != () and when[0][0] <= 0.0)
+    return counts_now(heights_of(situation.pursuer), heights_of(situation.leader))
 
 
 def _plan_by_level(situation: Situation, until: float) -> Plan | NoPlan:
