@@ -9,7 +9,9 @@ from math import hypot, inf
 
 import numpy as np
 
+from relguide.flying.leaders.declared import intent_after as intent_after
 from relguide.flying.perception import CERTAIN, Spread
+from relguide.flying.seen_others import SeenOther
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.motion import advance
 from relguide.kernels.base.roots import FloatArray
@@ -20,6 +22,7 @@ from relguide.kernels.flight.laws import ground_track
 from relguide.kernels.flight.marks import straight_for
 from relguide.kernels.flight.program import roll_lead
 from relguide.planning.aircraft import Leader
+from relguide.planning.cells import Cell
 from relguide.planning.heights import (
     ALWAYS,
     FASTEST,
@@ -155,6 +158,11 @@ class Belief:
         counts = self.counts
         return self.separation if counts and counts[0][0] <= 0.0 else inf
 
+    others: tuple[SeenOther, ...] = ()
+    """All other aircraft."""
+    cells: tuple[Cell, ...] = ()
+    """Weather to be kept out of, as it is now."""
+
     @cached_property
     def drift(self) -> Drift:
         """The wind as kernels take it."""
@@ -263,22 +271,3 @@ def coasting(heard: Belief, t: Second, own: Body) -> Belief:
         heard, t=t, own=own, leader=leader, intent=then.intent, leader_age=age,
         leader_heights=UNKNOWN, leader_climb=0.0,
     )  # fmt: skip
-
-
-def intent_after(leader: Leader, seconds: Second) -> tuple[IntentPiece, ...]:
-    """The part of an intent still to be flown after a time [s]."""
-    if not leader.intent:
-        return ()
-    left, pieces = seconds, list[IntentPiece]()
-    durations = leader.trajectory.durations()
-    for piece, duration in zip(leader.intent, durations, strict=True):
-        if left >= duration:
-            left -= duration
-            continue
-        match piece:
-            case FlyStraight():
-                pieces.append(FlyStraight(duration=duration - left))
-            case TurnTo():
-                pieces.append(piece)
-        left = 0.0
-    return tuple(pieces)

@@ -29,6 +29,7 @@ from relguide.flying.guidance.announcements import UnableReason as UnableReason
 from relguide.flying.modes import Mode as Mode
 from relguide.flying.plan_documents import (
     ADDED,
+    LEFT_OUT,
     NoPlanCard,
     OtherPathCard,
     PathPoint,
@@ -63,7 +64,7 @@ class FlightStarted:
     step: Second
     """Integration step [s]."""
     seed: int
-    cells: tuple[CellCard, ...] = field(default=(), metadata=ADDED)
+    cells: tuple[CellCard, ...] = field(default=(), metadata=LEFT_OUT)
     """Weather to be kept out of."""
     kind: Literal["flight_started"] = "flight_started"
 

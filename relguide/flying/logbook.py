@@ -9,6 +9,7 @@ import numpy as np
 from relguide.flying.aircraft import AircraftState, ground_velocity
 from relguide.flying.aircraft_documents import (
     AircraftSample,
+    CellCard,
     GuidanceSample,
     HeadingReference,
     ReferenceCard,
@@ -62,6 +63,7 @@ from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
 from relguide.planning.aircraft import Leader
 from relguide.planning.alternatives import alternatives
+from relguide.planning.cells import Cell, Disc, Polygon
 from relguide.planning.heights import VERTICAL_MINIMUM, WHOLE_METRE
 from relguide.planning.plan import Plan
 from relguide.planning.wind import Wind
@@ -154,6 +156,26 @@ def _guidance_sample(
     )
 
 
+def cell_card(cell: Cell) -> CellCard:
+    """A weather cell as it is at the start."""
+    match cell.shape:
+        case Disc(x=x, y=y, radius=radius):
+            corners: tuple[tuple[Metre, Metre], ...] = ((x, y),)
+        case Polygon(corners=corners, radius=radius):
+            pass
+        case _:
+            assert_never(cell.shape)
+    return CellCard(
+        ident=cell.ident,
+        x=tuple(x for x, _ in corners),
+        y=tuple(y for _, y in corners),
+        radius=radius,
+        east=cell.east,
+        north=cell.north,
+        growth=cell.growth,
+    )
+
+
 def leader_route(
     t: Second, names: PairNames, expected: Leader, *, intent_known: bool, wind: Wind
 ) -> LeaderRoute:
@@ -241,7 +263,7 @@ def event_document(t: Second, names: PairNames, event: Event) -> Document:
             return Alert(
                 t=t,
                 ident=ident,
-                other=names.leader,
+                other=event.ident or names.leader,
                 level=event.level,
                 subject=event.subject,
                 message=event.message,

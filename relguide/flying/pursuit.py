@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from relguide.flying.aircraft_documents import Loss
+from relguide.flying.aircraft_documents import ClosestOther, Loss
 from relguide.flying.belief import SEEMS, SPARE, Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
 from relguide.flying.fleet import Fleet, Flown, dependable_deceleration, limits_of
@@ -16,6 +16,7 @@ from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
 from relguide.flying.logbook import PairNames
 from relguide.flying.perception import Perceived, Perception
 from relguide.flying.queues import behind_head
+from relguide.flying.seen_others import SeenOther
 from relguide.flying.world import Link, World
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.flight_records import Body, Drift, move_to
@@ -78,6 +79,8 @@ class FlightMetrics(NamedTuple):
     """When it last began to follow, if it has [s]."""
     alerted: tuple[Second, ...] = ()
     """When the alert that stands was given first; empty if none stands."""
+    others_alerted: tuple[tuple[str, Second], ...] = ()
+    """The same of each of the others, by ident."""
     unable: tuple[Second, ...] = ()
     """When `Unable` was said first since the last plan; empty if it was not."""
     losses: tuple[Loss, ...] = ()
@@ -85,6 +88,8 @@ class FlightMetrics(NamedTuple):
     """Largest along the route while it followed."""
     across_error: Metre = 0.0
     """Largest beside it."""
+    least_other: ClosestOther | None = None
+    """Of all others the one that it came nearest to, measured by what is to be kept."""
 
 
 @dataclass(slots=True)
@@ -122,6 +127,10 @@ class Pursuit:
     """For which level [m], and in which descent [m/s²], the assignment is."""
     lost: bool = False
     """Whether the separation is below d_min."""
+    seen_others: tuple[SeenOther, ...] = ()
+    """All other aircraft, as it last saw them."""
+    lost_others: frozenset[str] = frozenset()
+    """The idents of others that it is too close to."""
     braked: tuple[MetrePerSecond, ...] = ()
     """The airspeeds of the last seconds, all of them with braking asked for in earnest [m/s]."""
     reckoned: tuple[Body, Flown] | None = None

@@ -27,7 +27,7 @@ from relguide.planning.certificate import (
     certify,
     judge,
 )
-from relguide.planning.heights import counts_now, heights_of
+from relguide.planning.heights import counted, heights_of
 from relguide.planning.intent import TurnTo
 from relguide.planning.others_table import others_of
 from relguide.planning.phrases import distance
@@ -44,12 +44,11 @@ MOST_TRIED = 32
 
 def lost_already(situation: Situation) -> tuple[OtherSeparation, str] | None:
     """One of the others that the pursuer is too close to now, and a sentence that says so."""
-    own = heights_of(situation.pursuer)
     for other in situation.others:
         apart, limit = _separation_now(situation, other)
-        if apart >= limit - SLACK * situation.pursuer.turn_radius:
-            continue
-        if isinstance(other, Traffic) and not counts_now(own, heights_of(other)):
+        if apart >= limit - SLACK * situation.pursuer.turn_radius or not _counts_now(
+            situation, other
+        ):
             continue
         if isinstance(other, Cell):
             message = (
@@ -67,6 +66,14 @@ def lost_already(situation: Situation) -> tuple[OtherSeparation, str] | None:
         )  # fmt: skip
         return lost, message
     return None
+
+
+def _counts_now(situation: Situation, other: Other) -> bool:
+    """Whether the horizontal minimum counts at t = 0; from a cell it always does."""
+    if isinstance(other, Cell):
+        return True
+    when = counted(heights_of(situation.pursuer), heights_of(other))
+    return len(when) > 0 and when[0][0] <= 0.0
 
 
 def _separation_now(situation: Situation, other: Other) -> tuple[Metre, Metre]:

@@ -148,12 +148,6 @@ def counted(own: Heights, other: Heights) -> tuple[Interval, ...]:
     return tuple((since, until) for since, until, certain, _ in _spans(own, other) if not certain)
 
 
-def counts_now(own: Heights, other: Heights) -> bool:
-    """Whether the horizontal minimum counts at t = 0."""
-    when = counted(own, other)
-    return bool(when) and when[0][0] <= 0.0
-
-
 def kept_by_height(own: Heights, other: Heights, until: Second) -> tuple[KeptByHeight, ...]:
     """The other times until `until` [s], each with the least height between the two."""
     if own.altitude is None or other.altitude is None:

@@ -1,8 +1,9 @@
-"""What plans are asked for: both aircraft, and what the assignment asks."""
+"""What plans are asked for: all that fly, and what the assignment asks."""
 
 from dataclasses import replace
 
 from relguide.flying.belief import Belief
+from relguide.flying.guidance.amid import others_after
 from relguide.flying.guidance.assignment import Assignment
 from relguide.kernels.base.angles import wrap
 from relguide.planning.aircraft import Leader, Pursuer
@@ -35,26 +36,29 @@ def situation_of(
     belief: Belief,
     min_separation: Metre,
     *,
-    after: Second = 0.0,
+    seconds: Second = 0.0,
+    aside: Metre = 0.0,
 ) -> Situation:
     """Both aircraft with what the assignment asks, aimed at the place in the gate.
 
     Args:
         assignment: what was asked.
-        pursuer: where it begins.
-        leader: as it is expected then.
-        belief: what is known now.
-        min_separation: what the plan is to keep [m].
-        after: how long after now they begin [s].
+        pursuer: where the plan begins.
+        leader: at the same time.
+        belief: gives the others, and the wind.
+        min_separation: to be kept from the leader [m].
+        seconds: how long from now that is [s].
+        aside: what is to be kept beside the minimum of each of the others [m].
     """
     if belief.intent_known and belief.counts != ALWAYS:
-        pursuer, leader = _at_levels(pursuer, leader, belief, after)
+        pursuer, leader = _at_levels(pursuer, leader, belief, seconds)
     return Situation(
         pursuer=pursuer,
         leader=leader,
         slot_distance=assignment.aim,
         min_separation=min_separation,
         wind=belief.wind,
+        others=others_after(belief, pursuer, seconds, aside),
     )
 
 

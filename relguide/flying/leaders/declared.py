@@ -11,6 +11,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import Body, Limits
 from relguide.kernels.flight.program import ROLLED_OUT, STRAIGHT, TURN, roll_lead
+from relguide.planning.aircraft import Leader, Traffic
 from relguide.planning.intent import ROUNDED, ChangeLevel, FlyStraight, IntentPiece, TurnTo
 from relguide.planning.limits import MAX_PIECES
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
@@ -164,3 +165,22 @@ def _rolling_in(
     side: Turn = RIGHT if turned > 0.0 else LEFT
     to = wrap(body.heading + turned)
     return TurnTo(heading=to, turn=side, bank=abs(body.bank)), lead, turned
+
+
+def intent_after(aircraft: Leader | Traffic, seconds: Second) -> tuple[IntentPiece, ...]:
+    """The part of an intent still to be flown after a time [s]."""
+    if not aircraft.intent:
+        return ()
+    left, pieces = seconds, list[IntentPiece]()
+    durations = aircraft.trajectory.durations()
+    for piece, duration in zip(aircraft.intent, durations, strict=True):
+        if left >= duration:
+            left -= duration
+            continue
+        match piece:
+            case FlyStraight():
+                pieces.append(FlyStraight(duration=duration - left))
+            case TurnTo():
+                pieces.append(piece)
+        left = 0.0
+    return tuple(pieces)

@@ -45,6 +45,7 @@ export const UNABLE: Record<Reason, string> = {
   beyond_horizon: "TIME",
   deadline: "TIME",
   traffic: "TRAFFIC",
+  level: "LEVEL",
 };
 
 /** … and in those of `Unable`. */
