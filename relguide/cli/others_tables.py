@@ -1,4 +1,4 @@
-"""Other traffic and weather cells for people: how near a plan comes, or who is in the way."""
+"""Heights, other traffic and cells for people: how near a plan comes, or who is in the way."""
 
 from collections.abc import Iterable
 
@@ -6,8 +6,17 @@ from rich.console import Console
 from rich.text import Text
 
 from relguide.cli.shared_tables import clock, miles, table
-from relguide.flying.plan_documents import NoPlanCard, Separation, VerticalCard
+from relguide.flying.plan_documents import LevelChangeCard, NoPlanCard, Separation, VerticalCard
 from relguide.units import FT
+
+
+def print_levels(console: Console, levels: Iterable[LevelChangeCard]) -> None:
+    """Print the changes of level that a plan has."""
+    for level in levels:
+        console.print(
+            f"At {clock(level.at)} it leaves for {level.to_altitude / FT:,.0f} ft, "
+            f"{level.rate / FT * 60.0:,.0f} ft a minute."
+        )
 
 
 def print_others(console: Console, separation: Separation) -> None:

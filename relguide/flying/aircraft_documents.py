@@ -6,14 +6,14 @@ have several pursuers, and may be a pursuer itself.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, Protocol, TypeVar
 
 from relguide.flying.engagement import Engagement as Engagement
 from relguide.flying.guidance.announcements import AlertLevel as AlertLevel
 from relguide.flying.guidance.announcements import AlertState as AlertState
 from relguide.flying.modes import Mode as Mode
-from relguide.flying.plan_documents import PathPoint
+from relguide.flying.plan_documents import LEFT_OUT, PathPoint
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 Spacing = Literal["distance", "time"]
@@ -165,6 +165,21 @@ class Loss:
     """Why, in a sentence."""
     announced: tuple[Second, ...]
     """When the first alert or `Unable` that came before it was given; empty if there was none."""
+    other: str = field(default="", metadata=LEFT_OUT)
+    """Ident of the aircraft or cell that it came too close to; empty for the leader."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClosestOther:
+    """How near a pursuer came to one other aircraft, or to the edge of a cell."""
+
+    ident: str
+    separation: Metre
+    """The least; negative inside a cell."""
+    t: Second
+    """When."""
+    min_separation: Metre
+    """What was to be kept; 0 for a cell."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -202,6 +217,9 @@ class LinkResult:
     """Largest distance along the route from where it should be, while it followed."""
     across_error: Metre = 0.0
     """Largest distance beside the route, while it followed."""
+    least_other: tuple[ClosestOther, ...] = field(default=(), metadata=LEFT_OUT)
+    """Of all others the one that it came nearest to, measured by what was to be kept; none where
+    there are no others."""
 
 
 class _HasIdent(Protocol):

@@ -29,6 +29,7 @@ from relguide.flying.guidance.announcements import UnableReason as UnableReason
 from relguide.flying.modes import Mode as Mode
 from relguide.flying.plan_documents import (
     ADDED,
+    LEFT_OUT,
     NoPlanCard,
     OtherPathCard,
     PathPoint,
@@ -38,7 +39,9 @@ from relguide.flying.plan_documents import (
 from relguide.planning.acceptance import Fault as Fault
 from relguide.units import Metre, Radian, Second
 
-LeaderChange = Literal["heading", "speed", "intent_received", "intent_withdrawn", "intent_broken"]
+LeaderChange = Literal[
+    "heading", "speed", "level", "intent_received", "intent_withdrawn", "intent_broken"
+]
 """What is new of a leader; intent_broken: it does not fly what it declared."""
 EndReason = Literal["joined", "time_over", "recording_over", "plane_left"]
 """Why a flight ends."""
@@ -61,7 +64,7 @@ class FlightStarted:
     step: Second
     """Integration step [s]."""
     seed: int
-    cells: tuple[CellCard, ...] = field(default=(), metadata=ADDED)
+    cells: tuple[CellCard, ...] = field(default=(), metadata=LEFT_OUT)
     """Weather to be kept out of."""
     kind: Literal["flight_started"] = "flight_started"
 

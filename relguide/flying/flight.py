@@ -1,4 +1,4 @@
-"""fly(scenario, planner): a flight of two, a pursuer and its leader.
+"""fly(scenario, planner): a flight of a pursuer and its leader, and of others in their queue.
 
 A `Scenario` says where both begin and what the leader will do; `fly` makes a world of it and
 simulates it.
@@ -15,21 +15,26 @@ from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.flying.envelope import envelope_fault
 from relguide.flying.fans import Wants, no_fans
+from relguide.flying.followers import Follower, expect_followers
 from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.guidances import Guidance, expect_guidance
 from relguide.flying.orders import Command
 from relguide.flying.orders import IntentKnown as IntentKnown
 from relguide.flying.orders import LeaderData as LeaderData
 from relguide.flying.orders import LeaderHeading as LeaderHeading
+from relguide.flying.orders import LeaderLevel as LeaderLevel
 from relguide.flying.orders import LeaderSpeed as LeaderSpeed
 from relguide.flying.orders import PursuerHeading as PursuerHeading
 from relguide.flying.orders import SetEngagement as SetEngagement
 from relguide.flying.orders import no_commands as no_commands
+from relguide.flying.queues import queue_up
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
 from relguide.flying.wind_profile import WindProfile
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
+from relguide.planning.aircraft import Traffic
+from relguide.planning.cells import Cell
 from relguide.planning.inputs import (
     expect,
     expect_function,
@@ -62,13 +67,13 @@ class DeclaredLeader:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario:
-    """A flight that can be flown: where both begin, and what the leader will do."""
+    """A flight that can be flown: where all begin, and what the leader will do."""
 
     name: str
     title: str
     description: str
     situation: Situation
-    """At t = 0, with the leader's true intent."""
+    """At t = 0, with the leader's true intent; other traffic flies what it declares."""
     intent_known: bool = True
     """Whether the pursuer knows it."""
     declared_intent: tuple[IntentPiece, ...] | None = None
@@ -84,7 +89,7 @@ class Scenario:
     leader_type: str = DEFAULT_TYPE
     """Of a leader that is not recorded; of another only its designator is shown."""
     altitude: Metre = 9449.0
-    """Of both [m]; FL310."""
+    """Of both, where the situation does not say [m]; FL310."""
     isa_deviation: float = 0.0
     """Temperature above the standard atmosphere's [K]."""
     profile: WindProfile | None = None
@@ -97,6 +102,10 @@ class Scenario:
     """How the pursuer sees its leader."""
     spacing: Second = 0.0
     """Time behind the leader to keep once joined [s]; 0 to keep D."""
+    ahead: tuple[Follower, ...] = ()
+    """A queue behind the leader, whose last aircraft the pursuer joins; the first one first."""
+    followers: tuple[Follower, ...] = ()
+    """A queue behind the pursuer."""
     duration_limit: Second = 3600.0
     """The flight ends here at the latest [s]."""
     after_joining: Second = 120.0
@@ -113,6 +122,10 @@ class Scenario:
             raise ValueError(
                 f"pursuer_ident and leader_ident must differ, not both be {self.leader_ident!r}."
             )
+        taken = {self.pursuer_ident, self.leader_ident}
+        for name in ("ahead", "followers"):
+            queue = expect_followers(name, getattr(self, name), taken)
+            object.__setattr__(self, name, queue)
         expect_within("altitude", self.altitude, *ALTITUDE)
         expect_within("spacing", self.spacing, *SPACING)
         if self.believed_air is not None:
@@ -126,7 +139,7 @@ class Scenario:
         airframe(self.pursuer_type).expect_weight("pursuer_weight", self.pursuer_weight)
         fault = envelope_fault(
             airframe(self.pursuer_type),
-            self.altitude,
+            self.altitude if pursuer.altitude is None else pursuer.altitude,
             self.air,
             tas=pursuer.tas,
             bank=pursuer.max_bank,
@@ -247,7 +260,7 @@ def _name_of(planner: Planner, situation: Situation) -> str:
 
 
 def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) -> World:
-    """The world of a scenario: two aircraft, and the link between them.
+    """The world of a scenario: two aircraft, their queue and its links, and all others.
 
     Args:
         scenario: what is to be flown.
@@ -275,7 +288,7 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
                 y=pursuer.y,
                 heading=pursuer.heading,
                 tas=pursuer.tas,
-                altitude=scenario.altitude,
+                altitude=scenario.altitude if pursuer.altitude is None else pursuer.altitude,
                 weight=scenario.pursuer_weight,
                 max_bank=pursuer.max_bank,
                 pilot=Guided(),
@@ -288,27 +301,65 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
                 y=leader.y,
                 heading=leader.heading,
                 tas=leader.tas,
-                altitude=scenario.altitude,
+                altitude=scenario.altitude if leader.altitude is None else leader.altitude,
                 max_bank=max(LEADER_BANK, *banks, 0.0),
                 pilot=pilot,
             ),
-        ),
-        links=(
-            Link(
-                pursuer=scenario.pursuer_ident,
-                leader=scenario.leader_ident,
-                slot_distance=situation.slot_distance,
-                min_separation=situation.min_separation,
-                spacing=scenario.spacing,
-                intent_known=scenario.intent_known,
-                declared_intent=scenario.declared_intent,
+            *(
+                one.aircraft(scenario.altitude, seed + k if seed else 0)
+                for k, one in enumerate((*scenario.ahead, *scenario.followers), start=1)
+            ),
+            *(
+                _traffic(other, scenario)
+                for other in situation.others
+                if isinstance(other, Traffic)
             ),
         ),
+        links=_links(scenario),
         air=scenario.air,
         believed_air=scenario.believed_air,
         surveillance=scenario.surveillance,
         settings=settings,
+        cells=tuple(other for other in situation.others if isinstance(other, Cell)),
     )
+
+
+def _traffic(other: Traffic, scenario: Scenario) -> Aircraft:
+    """Other traffic, which flies what it has declared; at the level of the two if it says none."""
+    banks = [piece.bank for piece in other.intent if isinstance(piece, TurnTo)]
+    return Aircraft(
+        ident=other.ident,
+        airframe=airframe(DEFAULT_TYPE),
+        aircraft_type=DEFAULT_TYPE,
+        x=other.x,
+        y=other.y,
+        heading=other.heading,
+        tas=other.tas,
+        altitude=scenario.altitude if other.altitude is None else other.altitude,
+        max_bank=max(LEADER_BANK, *banks, 0.0),
+        pilot=Declared(intent=other.intent),
+        min_separation=other.min_separation,
+    )
+
+
+def _links(scenario: Scenario) -> tuple[Link, ...]:
+    """Each behind the one before it; the link of the scenario's pursuer comes first."""
+    situation, own = scenario.situation, scenario.pursuer_ident
+    queue = (
+        *(one.ident for one in scenario.ahead),
+        own,
+        *(one.ident for one in scenario.followers),
+    )
+    links = queue_up(
+        queue,
+        scenario.leader_ident,
+        slot_distance=situation.slot_distance,
+        min_separation=situation.min_separation,
+        spacing=scenario.spacing,
+        intent_known=scenario.intent_known,
+        declared_intent=scenario.declared_intent,
+    )
+    return tuple(sorted(links, key=lambda link: link.pursuer != own))
 
 
 def _leader_airframe(designator: str) -> Airframe:

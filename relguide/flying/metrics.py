@@ -1,10 +1,12 @@
 """The figures of a flight, counted as it is flown, and losses of separation as they begin."""
 
+from collections.abc import Iterator
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 
-from relguide.flying.aircraft_documents import LinkResult, Loss
+from relguide.flying.aircraft_documents import ClosestOther, LinkResult, Loss
 from relguide.flying.documents import (
     Alert,
     Document,
@@ -16,16 +18,27 @@ from relguide.flying.documents import (
 from relguide.flying.fleet import Fleet
 from relguide.flying.logbook import PairNames
 from relguide.flying.pursuit import FlightMetrics, Pursuit
+from relguide.flying.world import kept_from
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.second import REVERSALS, SWING, TRACK
+from relguide.planning.cells import outside
 from relguide.units import Metre, Second
 
 RECENT: Second = 120.0
 """A loss so soon after something new of the leader is put down to it [s]."""
 
 
-def count_event(metrics: FlightMetrics, document: Document) -> FlightMetrics:
-    """The figures after what guidance announced."""
+def count_event(metrics: FlightMetrics, document: Document, leader: str) -> FlightMetrics:
+    """The figures after what guidance announced.
+
+    Args:
+        metrics: before.
+        document: what was said.
+        leader: ident of the leader: what is said of others counts for itself.
+    """
     match document:
+        case Alert(subject="separation", other=other) if other != leader:
+            return _count_alert(metrics, document)
         case PlanChanged(t=0.0, reason="engaged", plan=card, promised=promised):
             return metrics._replace(planned_time=card.time_to_converge, promised=promised)
         case PlanChanged(reason="engaged"):
@@ -50,17 +63,35 @@ def count_event(metrics: FlightMetrics, document: Document) -> FlightMetrics:
                 separation=document.separation,
                 cause=document.cause,
                 announced=document.announced,
+                other="" if document.other == leader else document.other,
             )
             return metrics._replace(losses=(*metrics.losses, loss))
         case _:
             return metrics
 
 
-def count_loss(metrics: FlightMetrics, least: Metre) -> FlightMetrics:
-    """The last loss went on, and came to this [m]."""
-    *before, last = metrics.losses
-    last = replace(last, separation=min(last.separation, least))
-    return metrics._replace(losses=(*before, last))
+def _count_alert(metrics: FlightMetrics, alert: Alert) -> FlightMetrics:
+    """The figures after an alert on another aircraft or a cell."""
+    stand = dict(metrics.others_alerted)
+    if alert.cleared:
+        stand.pop(alert.other, None)
+    elif alert.level in ("caution", "warning"):
+        stand.setdefault(alert.other, alert.t)
+    return metrics._replace(others_alerted=tuple(stand.items()))
+
+
+def count_loss(metrics: FlightMetrics, least: Metre, other: str = "") -> FlightMetrics:
+    """The last loss went on, and came to this.
+
+    Args:
+        metrics: before.
+        least: the separation that it came to [m].
+        other: ident of the other; empty for the leader.
+    """
+    losses = list(metrics.losses)
+    k = max(k for k, loss in enumerate(losses) if loss.other == other)
+    losses[k] = replace(losses[k], separation=min(losses[k].separation, least))
+    return metrics._replace(losses=tuple(losses))
 
 
 def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
@@ -80,52 +111,129 @@ def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
             across_error=max(metrics.across_error, abs(one.advice.across)),
         )
     one.metrics = metrics
+    said = list[SeparationLost]()
     limit = one.link.min_separation
     if least >= limit:
-        one.lost = one.lost and fleet.apart(one.pursuer, one.ahead) < limit
-        return []
-    said = [] if one.lost else [_loss(one, fleet, t)]
-    for loss in said:
-        one.metrics = count_event(one.metrics, loss)
-    one.metrics = count_loss(one.metrics, least)
-    one.lost = True
-    return said
+        one.lost = one.lost and fleet.counted_apart(one.pursuer, one.ahead) < limit
+    else:
+        if not one.lost:
+            apart = _apart(fleet, one.pursuer, one.ahead)
+            said.append(_loss(one, fleet, t, one.names.leader, apart, limit, _cause(one, t)))
+            one.metrics = count_event(one.metrics, said[0], one.names.leader)
+        one.metrics = count_loss(one.metrics, least)
+        one.lost = True
+    return [*said, *_count_others(one, fleet, t)]
 
 
-def _loss(one: Pursuit, fleet: Fleet, t: Second) -> SeparationLost:
-    """The loss that began in the second from t on."""
-    k, apart = _first_below(fleet, one, one.link.min_separation)
+def _count_others(one: Pursuit, fleet: Fleet, t: Second) -> Iterator[SeparationLost]:
+    """How near all others came in the second from t on, and which are too near now."""
+    lost = set(one.lost_others)
+    for ident, limit, apart in _others_apart(one, fleet, t):
+        k = int(np.argmin(apart))
+        least, before = float(apart[k]), one.metrics.least_other
+        if before is None or least - limit < before.separation - before.min_separation:
+            nearest = ClosestOther(
+                ident=ident, separation=least, t=t + k * fleet.step, min_separation=limit
+            )
+            one.metrics = one.metrics._replace(least_other=nearest)
+        if least >= limit:
+            if apart[-1] >= limit:
+                lost.discard(ident)
+            continue
+        if ident not in lost:
+            cause = _cause_of_other(one, ident)
+            loss = _loss(one, fleet, t, ident, apart, limit, cause)
+            one.metrics = count_event(one.metrics, loss, one.names.leader)
+            lost.add(ident)
+            yield loss
+        one.metrics = count_loss(one.metrics, least, ident)
+    one.lost_others = frozenset(lost)
+
+
+def _others_apart(one: Pursuit, fleet: Fleet, t: Second) -> Iterator[tuple[str, Metre, FloatArray]]:
+    """Of each other its ident, its minimum [m] and how far it was at each step [m]."""
+    own = fleet.trace[one.pursuer, :, :2]
+    for j, aircraft in enumerate(fleet.world.aircraft):
+        if j not in (one.pursuer, one.ahead):
+            limit = kept_from(aircraft, one.link)
+            yield aircraft.ident, limit, np.hypot(*(own - fleet.trace[j, :, :2]).T)
+    times = t + fleet.step * np.arange(float(len(own)))
+    for cell in fleet.world.cells:
+        yield cell.ident, 0.0, outside(cell, own, times)
+
+
+def _loss(
+    one: Pursuit,
+    fleet: Fleet,
+    t: Second,
+    other: str,
+    apart: FloatArray,
+    limit: Metre,
+    cause: str,
+) -> SeparationLost:
+    """The loss that began in the second from t on.
+
+    Args:
+        one: whose.
+        fleet: its aircraft.
+        t: flight time at the beginning of the second [s].
+        other: whom it came too close to.
+        apart: how far apart they were at each step [m].
+        limit: what was to be kept [m].
+        cause: why, in a sentence.
+    """
+    below = np.flatnonzero(apart < limit)
+    k = int(below[0]) if len(below) else int(np.argmin(apart))
+    separation, k = float(apart[k]), min(k, fleet.steps - 1)
     own = fleet.state(one.pursuer, k)
     return SeparationLost(
         t=t + k * fleet.step,
         ident=one.names.pursuer,
-        other=one.names.leader,
-        separation=apart,
+        other=other,
+        separation=separation,
         x=own.x,
         y=own.y,
-        cause=_cause(one, t),
-        announced=_announced(one.metrics),
+        cause=cause,
+        announced=_announced(one.metrics, other, one.names.leader),
     )
 
 
-def _announced(metrics: FlightMetrics) -> tuple[Second, ...]:
+def _announced(metrics: FlightMetrics, other: str, leader: str) -> tuple[Second, ...]:
     """When what stands was said first, alert or `Unable`; empty if nothing stands."""
-    said = (*metrics.alerted, *metrics.unable)
+    alerted = metrics.alerted
+    if other != leader:
+        alerted = tuple(t for ident, t in metrics.others_alerted if ident == other)
+    said = (*alerted, *metrics.unable)
     return (min(said),) if said else ()
 
 
-def _first_below(fleet: Fleet, one: Pursuit, limit: Metre) -> tuple[int, Metre]:
-    """At which step of the last second the separation is below d_min, and what it is."""
-    apart = np.hypot(*(fleet.trace[one.pursuer, :, :2] - fleet.trace[one.ahead, :, :2]).T)
-    below = np.flatnonzero(apart < limit)
-    k = int(below[0]) if len(below) else int(np.argmin(apart))
-    return min(k, fleet.steps - 1), float(apart[k])
+def _apart(fleet: Fleet, i: int, j: int) -> FloatArray:
+    """How far two aircraft were apart at each step of the last second [m].
+
+    Infinite where 1,000 ft kept them apart.
+    """
+    apart = np.hypot(*(fleet.trace[i, :, :2] - fleet.trace[j, :, :2]).T)
+    return np.where(fleet.by_height(i, j), inf, apart)
 
 
 def _cause(one: Pursuit, t: Second) -> str:
     """Why separation was lost, in a sentence."""
     if t - one.view.changed_at < RECENT and one.view.changed:
         return one.view.changed
+    if one.memory.forecast is None:
+        return "Nothing looked ahead."
+    if one.memory.mode in ("heading", "escape"):
+        return "There was no path that kept it."
+    return "What was flown is not what was forecast."
+
+
+def _cause_of_other(one: Pursuit, ident: str) -> str:
+    """Why the minimum to another was lost, in a sentence."""
+    for other in one.seen_others:
+        if other.ident == ident and other.broke_its_word:
+            return f"{ident} broke its word."
+        if other.ident == ident and other.turns_unannounced:
+            return f"{ident} turned unannounced."
     if one.memory.forecast is None:
         return "Nothing looked ahead."
     if one.memory.mode in ("heading", "escape"):
@@ -163,4 +271,5 @@ def link_result(
         optimum=optimum,
         along_error=metrics.along_error,
         across_error=metrics.across_error,
+        least_other=() if metrics.least_other is None else (metrics.least_other,),
     )

@@ -92,13 +92,25 @@ class Perception:
         self._wind, self._variance = wind, UNKNOWN_VARIANCE
         self._track: LeaderTrack | None = None
 
-    def listen(self, leader: Body, moves: Drift, own_wind: Drift) -> None:
+    def beside(self, rng: np.random.Generator) -> "Perception":
+        """How the same pursuer perceives another aircraft, before it is seen.
+
+        Args:
+            rng: of its noise and losses.
+        """
+        return Perception(self._receiver.surveillance, self._wind, self._gusts, rng)
+
+    def share_wind(self, measured: "Perception") -> None:
+        """Believe of the wind what the same pursuer believes that looks at its leader."""
+        self._wind, self._variance = measured._wind, measured._variance
+
+    def listen(self, leader: Body, moves: Drift, own_wind: Drift | None) -> None:
         """See and measure until the flight begins: both have come straight.
 
         Args:
             leader: where it begins.
             moves: the wind that moves it.
-            own_wind: the wind that moves the pursuer.
+            own_wind: the wind that moves the pursuer; `None` where that is measured elsewhere.
         """
         east = leader.tas * sin(leader.heading) + moves.east
         north = leader.tas * cos(leader.heading) + moves.north

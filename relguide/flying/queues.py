@@ -15,6 +15,7 @@ from relguide.flying.world import Aircraft, Declared, Link
 from relguide.kernels.base.angles import wrap
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.inputs import expect
+from relguide.planning.intent import IntentPiece
 from relguide.planning.limits import DISTANCE, SPACING
 from relguide.planning.plan import Plan, Planner, plan
 from relguide.planning.situation import Situation
@@ -59,6 +60,7 @@ def queue_up(
     min_separation: Metre,
     spacing: Second = 0.0,
     intent_known: bool = True,
+    declared_intent: tuple[IntentPiece, ...] | None = None,
 ) -> tuple[Link, ...]:
     """Links that put followers behind a leader, each behind the one before.
 
@@ -69,6 +71,7 @@ def queue_up(
         min_separation: d_min of each [m].
         spacing: time behind the aircraft before it, kept once joined [s]; 0 to keep D.
         intent_known: whether they know the head's intent.
+        declared_intent: what the head declared, if that is not what it flies.
     """
     before = [leader, *followers]
     return tuple(
@@ -79,6 +82,7 @@ def queue_up(
             min_separation=min_separation,
             spacing=spacing,
             intent_known=intent_known,
+            declared_intent=declared_intent if ahead == leader else None,
         )
         for ahead, follower in zip(before, followers, strict=False)
     )

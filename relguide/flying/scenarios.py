@@ -27,6 +27,7 @@ from relguide.flying.airframe import airframe
 from relguide.flying.dispersion import random_situation
 from relguide.flying.envelope import level_for
 from relguide.flying.flight import DEFAULT_TYPE, Scenario
+from relguide.flying.queue_scenarios import overtaking_queue, stream_of_five
 from relguide.flying.recordings.samples import DEFAULT_LEADER, INSTALL, load_sample
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.aircraft import Leader, Pursuer
@@ -210,6 +211,10 @@ def _level(situation: Situation, isa_deviation: float = 0.0) -> Metre:
         return level_for(can, air, slowest=own, fastest=own, bank=bank)
 
 
+def _named(name: str, build: Callable[[str, str], Scenario]) -> Scenario:
+    return build(TITLES[name], DESCRIPTIONS[name])
+
+
 def _report_nothing() -> str:
     return ""
 
@@ -224,6 +229,8 @@ TITLES = {
     "fig_6a": "Fig. 6a: the leader's intent is unknown",
     "fig_6b": "Fig. 6b: the leader's intent is known",
     "recorded_leader": "A recorded leader",
+    "stream_of_five": "A stream of five",
+    "overtaking_queue": "A faster aircraft joins a queue",
 }
 DESCRIPTIONS = {
     "fig_6a": "The leader turns right to 135° without announcement; the pursuer, 40 km behind and "
@@ -232,6 +239,10 @@ DESCRIPTIONS = {
     "40 km north, makes for the route after the turn from the start.",
     "recorded_leader": "The leader flies as it was recorded by ADS-B near Paris, intent unknown; "
     "the pursuer begins 30 km behind it and 20 km to its left.",
+    "stream_of_five": "Five aircraft from both sides join behind a leader that turns by 30°, each "
+    "a minute behind the one before.",
+    "overtaking_queue": "A pursuer that flies 245 m/s from far behind joins the end of a queue of "
+    "three behind a leader that flies 200 m/s.",
 }
 SCENARIOS: Mapping[str, NamedScenario] = {
     name: NamedScenario(
@@ -245,6 +256,8 @@ SCENARIOS: Mapping[str, NamedScenario] = {
         ("fig_6a", lambda: fig_6(intent_known=False), _report_nothing),
         ("fig_6b", lambda: fig_6(intent_known=True), _report_nothing),
         ("recorded_leader", lambda: scenario_behind(load_sample(DEFAULT_LEADER)), _samples_missing),
+        ("stream_of_five", lambda: _named("stream_of_five", stream_of_five), _report_nothing),
+        ("overtaking_queue", lambda: _named("overtaking_queue", overtaking_queue), _report_nothing),
     )
 }
 """All of them, by name."""

@@ -28,6 +28,7 @@ from relguide.flying.documents import (
 from relguide.flying.fans import Wants, follow_fan, no_fans
 from relguide.flying.fleet import Fleet
 from relguide.flying.guidance.choice import Guide, guide_by
+from relguide.flying.guidance.level import follow_level
 from relguide.flying.guidances import Guidance, expect_guidance
 from relguide.flying.leader_watch import (
     doubt_leader,
@@ -35,7 +36,7 @@ from relguide.flying.leader_watch import (
     note_command,
     watch_leader,
 )
-from relguide.flying.logbook import event_document, forecast_document, sample
+from relguide.flying.logbook import cell_card, event_document, forecast_document, sample
 from relguide.flying.metrics import count_event, count_second, link_result
 from relguide.flying.optimum import optimum
 from relguide.flying.orders import (
@@ -46,7 +47,8 @@ from relguide.flying.orders import (
     obey,
     order_fault,
 )
-from relguide.flying.pursuit import Pursuit, begin_pursuit, keep_margin
+from relguide.flying.pursuit import Pursuit, begin_pursuit, fit_to_level, keep_margin
+from relguide.flying.sky import Sky
 from relguide.flying.world import World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
 from relguide.planning.plan import Planner, plan
@@ -141,18 +143,20 @@ def _simulate(
     pursuits = [begin_pursuit(world, fleet, link, engagement, start.seed) for link in world.links]
     for one in pursuits:
         yield expected_route(one, one.view.shown)
+    sky = Sky(world, fleet, start.seed)
     for second in count():
         t = float(second)
         for command in commands(t):
             yield from _obey(command, fleet, pursuits, t)
         for one in pursuits:
-            yield from _guide(one, pursuits, fleet, guide, fan, t)
+            yield from _guide(one, pursuits, fleet, sky, guide, fan, t)
         end = _end(pursuits, fleet, t, until, after_joining)
         if end is not None:
             yield from _finish(pursuits, fleet, t, *end)
             return
         least = [one.metrics.least_separation for one in pursuits]
         fleet.fly_second(t)
+        sky.fly_second(t)
         documents: list[Document] = []
         for one in pursuits:
             documents += count_second(one, fleet, t)
@@ -205,6 +209,7 @@ def _start_document(
         wind=wind_card(_wind_at_start(world)),
         step=step,
         seed=seed,
+        cells=tuple(map(cell_card, world.cells)),
     )
 
 
@@ -243,20 +248,28 @@ def _pursuits_of(ident: str, pursuits: list[Pursuit]) -> list[Pursuit]:
 
 
 def _guide(
-    one: Pursuit, pursuits: list[Pursuit], fleet: Fleet, guide: Guide, fan: Fan, t: Second
+    one: Pursuit,
+    pursuits: list[Pursuit],
+    fleet: Fleet,
+    sky: Sky,
+    guide: Guide,
+    fan: Fan,
+    t: Second,
 ) -> Iterator[Document]:
     """One act of guidance, and what is new of the leader."""
     learn_braking(one, fleet)
     yield from doubt_leader(one, fleet, t)
-    belief = one.belief(fleet, t)
+    belief = sky.seen_by(one, pursuits, one.belief(fleet, t))
+    one.seen_others = belief.others
     one.track.add(belief.leader, belief.drift, t)
     yield from watch_leader(one, belief)
     keep_margin(one, belief)
+    fit_to_level(one, fleet)
     one.memory, advice = guide(one.memory, belief, one.assignment)
     advice = mind_ahead(one, pursuits, fleet, belief, advice)
     for event in advice.events:
-        document = event_document(t, one.names, event)
-        one.metrics = count_event(one.metrics, document)
+        document = event_document(t, one.watched, event)
+        one.metrics = count_event(one.metrics, document, one.names.leader)
         yield document
     if advice.forecast is not None and advice.forecast is not one.shown_forecast:
         one.shown_forecast = advice.forecast
@@ -266,6 +279,9 @@ def _guide(
     one.advice = advice
     yield from fan(one, belief)
     fleet.control(one.pursuer, advice.control)
+    level = follow_level(one.memory, belief, one.assignment)
+    if level is not None:
+        fleet.change_level(one.pursuer, level.to, level.rate)
 
 
 def _end(

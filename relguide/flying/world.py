@@ -10,7 +10,8 @@ from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.slots import refuse_taken
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
-from relguide.planning.aircraft import expect_distance
+from relguide.planning.aircraft import expect_distance, expect_ident
+from relguide.planning.cells import Cell
 from relguide.planning.inputs import expect, expect_within, text, truth
 from relguide.planning.intent import IntentPiece, expect_bank, expect_intent
 from relguide.planning.limits import (
@@ -42,11 +43,16 @@ class Declared:
     """Flies an intent, then straight on."""
 
     intent: tuple[IntentPiece, ...] = ()
+    declares: tuple[IntentPiece, ...] | None = None
+    """What it declares to those that keep clear of it, if that is not what it flies: it breaks its
+    word."""
     kind: Literal["declared"] = "declared"
 
     def __post_init__(self) -> None:
         """Refuse what is no intent."""
         object.__setattr__(self, "intent", expect_intent("intent", self.intent))
+        if self.declares is not None:
+            object.__setattr__(self, "declares", expect_intent("declares", self.declares))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,6 +96,9 @@ class Aircraft:
     """[kg]; 0 for the reference weight of its airframe."""
     believed: Airframe | None = None
     """What its guidance believes of the airframe; the truth, if left out."""
+    min_separation: Metre | None = None
+    """How near pursuers may come to it that do not follow it [m]; the d_min of their link, if left
+    out."""
 
     def __post_init__(self) -> None:
         """Refuse what cannot be an aircraft in the air."""
@@ -105,6 +114,9 @@ class Aircraft:
         expect("pilot", self.pilot, Guided, Declared, Recorded)
         if self.believed is not None:
             expect("believed", self.believed, Airframe)
+        if self.min_separation is not None:
+            kept = expect_distance("min_separation", self.min_separation)
+            object.__setattr__(self, "min_separation", kept)
 
     @property
     def autopilot_bank(self) -> Radian:
@@ -164,8 +176,10 @@ class World:
     """What guidance believes at the start, before it has measured the wind; the truth, if left
     out."""
     surveillance: Surveillance = EXACT
-    """How pursuers see their leaders."""
+    """How pursuers see their leaders, and all others."""
     settings: Settings = DEFAULT
+    cells: tuple[Cell, ...] = ()
+    """Weather that pursuers keep out of, as it is at the start."""
 
     def __post_init__(self) -> None:
         """Refuse links to who is not there, pursuers without guidance, and slots that are taken."""
@@ -176,9 +190,11 @@ class World:
             expect("believed_air", self.believed_air, Air)
         expect("surveillance", self.surveillance, Surveillance)
         expect("settings", self.settings, Settings)
+        object.__setattr__(self, "cells", _all_of("cells", self.cells, Cell))
         flying = {aircraft.ident: aircraft for aircraft in self.aircraft}
         if len(flying) < len(self.aircraft):
             raise ValueError("Each aircraft must have an ident of its own.")
+        self._expect_others(flying)
         for link in self.links:
             for ident in (link.pursuer, link.leader):
                 if ident not in flying:
@@ -191,6 +207,15 @@ class World:
         if len({link.pursuer for link in self.links}) < len(self.links):
             raise ValueError("Each pursuer must have one link: it joins one leader.")
         refuse_taken(self.links, {ident: one.tas for ident, one in flying.items()})
+
+    def _expect_others(self, flying: dict[str, Aircraft]) -> None:
+        """Refuse names that plans amid others cannot tell apart or show."""
+        idents = [*flying, *(cell.ident for cell in self.cells)]
+        if len(set(idents)) < len(idents):
+            raise ValueError("Each cell must have an ident of its own, which no aircraft has.")
+        if self.links and len(idents) > 2:
+            for ident in idents:
+                expect_ident("ident", ident)
 
     def _expect_guided(self, pursuer: Aircraft) -> None:
         if not isinstance(pursuer.pilot, Guided):
@@ -215,6 +240,11 @@ class World:
     def index(self, ident: str) -> int:
         """Which of the aircraft has an ident."""
         return [aircraft.ident for aircraft in self.aircraft].index(ident)
+
+
+def kept_from(other: Aircraft, link: Link) -> Metre:
+    """How near the pursuer of a link may come to another aircraft that it does not follow [m]."""
+    return link.min_separation if other.min_separation is None else other.min_separation
 
 
 def _all_of(name: str, values: object, kind: type) -> tuple[object, ...]:

@@ -1,16 +1,19 @@
 """Weather cells: discs and convex polygons to be kept out of, which move and grow."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import atan2, hypot, tau
-from typing import Literal
+from typing import Literal, assert_never
 
+import numpy as np
+
+from relguide.kernels.base.roots import FloatArray
 from relguide.planning.aircraft import expect_ident
 from relguide.planning.inputs import expect, expect_within
 from relguide.planning.intent import settle
 from relguide.planning.limits import CELL_RADIUS, CELL_SPEED, GROWTH, MAX_CORNERS, POSITION
 from relguide.planning.reprs import as_code
-from relguide.units import Metre, MetrePerSecond
+from relguide.units import Metre, MetrePerSecond, Second
 
 LEAST_AREA = 1.0
 """A polygon with less area than this is a line [m²]."""
@@ -42,6 +45,8 @@ class Polygon:
 
     corners: tuple[tuple[Metre, Metre], ...]
     """East and north of each corner, either way round [m]. Kept counter-clockwise."""
+    radius: Metre = 0.0
+    """How far its edge lies outside the corners [m]: what it has grown by."""
     kind: Literal["polygon"] = "polygon"
 
     __repr__ = as_code
@@ -49,6 +54,8 @@ class Polygon:
     def __post_init__(self) -> None:
         """Refuse what is no convex polygon."""
         settle(self, "corners", _convex(self.corners))
+        grown = expect_within("polygon.radius", self.radius, 0.0, CELL_RADIUS.high, "m")
+        settle(self, "radius", grown)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -74,6 +81,62 @@ class Cell:
         expect("cell.shape", self.shape, Disc, Polygon)
         for name, accepted in (("east", CELL_SPEED), ("north", CELL_SPEED), ("growth", GROWTH)):
             settle(self, name, expect_within(f"cell.{name}", getattr(self, name), *accepted))
+
+    def after(self, seconds: Second, *, wider: Metre = 0.0) -> "Cell":
+        """The same cell some time later: moved, and grown.
+
+        Args:
+            seconds: how much later [s], ≥ 0.
+            wider: a berth that it is given besides [m].
+
+        Raises:
+            ValueError: if it has left the plane by then.
+        """
+        east, north = self.east * seconds, self.north * seconds
+        grown = self.growth * seconds + wider
+        match self.shape:
+            case Disc(x=x, y=y, radius=radius):
+                shape: Disc | Polygon = Disc(x=x + east, y=y + north, radius=radius + grown)
+            case Polygon(corners=corners, radius=radius):
+                moved = tuple((x + east, y + north) for x, y in corners)
+                shape = Polygon(corners=moved, radius=radius + grown)
+            case _:
+                assert_never(self.shape)
+        return replace(self, shape=shape)
+
+
+def outside(cell: Cell, places: FloatArray, times: FloatArray) -> FloatArray:
+    """How far outside a cell places are; negative inside [m].
+
+    As `signed_distance` of the kernels has it, for many places over the ground.
+
+    Args:
+        cell: it moves and grows.
+        places: east and north [m]. shape (n, 2)
+        times: when [s]. shape (n,)
+    """
+    match cell.shape:
+        case Disc(x=x, y=y, radius=radius):
+            corners = np.array([(x, y)])
+        case Polygon(corners=points, radius=radius):
+            corners = np.array(points)
+        case _:
+            assert_never(cell.shape)
+    edge = radius + cell.growth * times
+    moved = times[:, None] * np.array((cell.east, cell.north))
+    from_corners = (places - moved)[:, None] - corners  # (n, corners, 2)
+    dx, dy = from_corners[..., 0], from_corners[..., 1]
+    if len(corners) == 1:
+        far: FloatArray = np.hypot(dx[:, 0], dy[:, 0]) - edge
+        return far
+    sides = np.roll(corners, -1, axis=0) - corners
+    lengths = np.hypot(sides[:, 0], sides[:, 1])
+    east, north = sides[:, 0] / lengths, sides[:, 1] / lengths
+    beyond = np.max(dx * north - dy * east, axis=1)
+    along = np.clip(dx * east + dy * north, 0.0, lengths)
+    near = np.min(np.hypot(dx - along * east, dy - along * north), axis=1)
+    signed: FloatArray = np.where(beyond <= 0.0, beyond, near) - edge
+    return signed
 
 
 def _convex(corners: object) -> tuple[tuple[float, float], ...]:

@@ -241,8 +241,8 @@ def cell_shape(cell: Cell, wind: Wind) -> tuple[FloatArray, FloatArray]:
     match cell.shape:
         case Disc(x=x, y=y, radius=radius):
             corners = [(x, y)]
-        case Polygon(corners=points):
-            corners, radius = list(points), 0.0
+        case Polygon(corners=points, radius=radius):
+            corners = list(points)
         case _:
             assert_never(cell.shape)
     velocity = cell.east - wind.east, cell.north - wind.north

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-35aa3d8873a3";
+export const PROTOCOL = "relguide-774dc5000c89";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -34,12 +34,14 @@ export type PlanReason =
   | "leader_elsewhere"
   | "intent_received"
   | "intent_withdrawn"
-  | "braking";
+  | "braking"
+  | "traffic";
 
 /** What is new about the leader. */
 export type LeaderChange =
   | "heading"
   | "speed"
+  | "level"
   | "intent_received"
   | "intent_withdrawn"
   | "intent_broken";
@@ -57,7 +59,7 @@ export type AlertState = "none" | "advisory" | "caution" | "warning";
 export type AlertSubject = "separation" | "spacing" | "speed" | "data" | "geometry";
 
 /** Why guidance cannot do what it is to do. */
-export type UnableReason = "separation" | "speed" | "geometry" | "envelope" | "data";
+export type UnableReason = "separation" | "speed" | "geometry" | "envelope" | "data" | "traffic";
 
 /** A planner that is compared with others. */
 export type ComparedPlanner = "exact" | "network" | "regular_dp" | "printed_network";
@@ -73,6 +75,7 @@ export type Fault =
   | "slot"
   | "heading"
   | "too_early"
+  | "level"
   | "separation";
 
 /** Why there is no plan. */
@@ -343,6 +346,17 @@ export interface CellCard {
   lat_deg?: number[];
   /** WGS84; there if the situation came with latitudes. */
   lon_deg?: number[];
+}
+
+/** How near a pursuer came to one other aircraft, or to the edge of a cell. */
+export interface ClosestOther {
+  ident: string;
+  /** The least; negative inside a cell. */
+  separation_m: number;
+  /** When. */
+  t_s: number;
+  /** What was to be kept; 0 for a cell. */
+  min_separation_m: number;
 }
 
 /** What the best path that was found comes too close to. */
@@ -632,6 +646,7 @@ export interface GeodeticPursuer {
   tas_mps: number;
   max_bank_deg: number;
   altitude_m?: number | null;
+  levels?: PlannedLevel[];
 }
 
 /** Another aircraft, at t = 0, placed on the earth (WGS84): to be kept clear of. */
@@ -760,6 +775,16 @@ export interface LevelChange {
   hold?: "cas" | "mach" | "tas";
 }
 
+/** A climb or a descent that the pursuer makes on its way. */
+export interface LevelChangeCard {
+  /** When it begins. */
+  at_s: number;
+  /** Pressure altitude to level off at. */
+  to_altitude_m: number;
+  /** How fast. */
+  rate_mps: number;
+}
+
 /** A piece of intent: begin to change the level. The pieces behind it are flown meanwhile. */
 export interface LevelChangePiece {
   level_change: LevelChange;
@@ -827,6 +852,11 @@ export interface LinkResult {
   along_error_m: number;
   /** Largest distance beside the route, while it followed. */
   across_error_m: number;
+  /**
+   * Of all others the one that it came nearest to, measured by what was to be kept; none where
+   * there are no others.
+   */
+  least_other?: ClosestOther[];
 }
 
 /** A round cell, at t = 0. */
@@ -854,6 +884,7 @@ export interface LocalPursuer {
   tas_mps: number;
   max_bank_deg: number;
   altitude_m?: number | null;
+  levels?: PlannedLevel[];
 }
 
 /** Another aircraft, at t = 0, with what it has declared it will do: to be kept clear of. */
@@ -878,6 +909,8 @@ export interface Loss {
   cause: string;
   /** When the first alert or `Unable` that came before it was given; empty if there was none. */
   announced_s: number[];
+  /** Ident of the aircraft or cell that it came too close to; empty for the leader. */
+  other?: string;
 }
 
 /** A word of which no path reaches the slot, or none within 12 hours. */
@@ -1027,6 +1060,8 @@ export interface PlanCard {
   length_m: number;
   /** In the order they are flown. */
   segments: PathSegment[];
+  /** Changes of level on the way. Left out if there is none. */
+  levels?: LevelChangeCard[];
   /** From the leader, along the path. */
   separation: Separation;
   /** How its end meets the slot. */
@@ -1115,6 +1150,13 @@ export interface PlanUnavailable {
   /** The pursuer's. */
   ident: string;
   answer: NoPlanCard;
+}
+
+/** A climb or a descent of the pursuer. */
+export interface PlannedLevel {
+  at_s: number;
+  to_altitude_m: number;
+  rate_mps: number;
 }
 
 /** What planners would fly in one situation. */

@@ -9,9 +9,11 @@ from dataclasses import replace
 from math import cos, hypot, sin
 
 from relguide.flying.belief import SEEMS, Belief
+from relguide.flying.guidance.amid import Nearing, keeps_clear
 from relguide.flying.guidance.announcements import (
     Event,
     PlanReason,
+    UnableReason,
     UnableTo,
     leader_change,
 )
@@ -42,7 +44,9 @@ from relguide.flying.guidance.leaving import (
 from relguide.flying.guidance.memory import Advice, Memory, Slot, enter
 from relguide.flying.guidance.monitor import (
     Outlook,
+    highest,
     is_as_forecast,
+    judge_others,
     judge_separation,
     leader_is_as_forecast,
     look_out,
@@ -100,6 +104,12 @@ def advise(
         events += news
     done = _act(memory, belief, assignment)
     outlook = _outlook(memory, belief, assignment)
+    if memory.mode == "converge" and outlook.pressing(belief.t) is not None:
+        memory, news = _plan_around(memory, belief, assignment, planner, outlook)
+        if news:
+            events += news
+            done = _act(memory, belief, assignment)
+            outlook = _outlook(memory, belief, assignment)
     if memory.mode not in ("heading", "escape") and must_leave(memory, belief, assignment, outlook):
         memory, news = _replan_or_escape(memory, belief, assignment, planner, outlook)
         events += news
@@ -108,12 +118,13 @@ def advise(
     memory, news = _follow_act(memory, belief, done)
     events += news
     alert, said = judge_separation(memory.alert, outlook, belief, assignment)
-    memory = memory._replace(alert=alert, forecast=outlook.forecast)
+    standing, of_others = judge_others(memory.others, outlook, belief, assignment)
+    memory = memory._replace(alert=alert, others=standing, forecast=outlook.forecast)
     memory, news = promise_anew(memory, belief, assignment)
     events += news
     memory, news = judge_spacing(memory, belief, assignment, done, outlook)
     events += news
-    return memory, _advice(memory, belief, assignment, done, (*events, *said))
+    return memory, _advice(memory, belief, assignment, done, (*events, *said, *of_others))
 
 
 def _try_to_plan(
@@ -126,7 +137,7 @@ def _try_to_plan(
     if memory.mode == "escape":
         rested = t - memory.since >= settings.escapes_for and is_steady(memory, belief, assignment)
         clear = min(assignment.min_separation + settings.escape_room, assignment.aim)
-        if not rested or belief.separation < clear:
+        if not rested or belief.counted_separation < clear:
             return memory, []
     # Of two ways round that are as fast, the one that the crew accepted is flown.
     like = None if memory.proposed is None else memory.proposed.path
@@ -199,7 +210,8 @@ def _plan_if_sooner(
     until = max(committed.due, belief.t) + BRAKES_FOR
     ahead = forecast(belief, assignment, memory.progress, committed.course, until=until)
     least, _ = ahead.least(belief.t)
-    if not ahead.joins or least < assignment.kept_separation:
+    lost = keeps_clear(ahead, belief, assignment) is not None
+    if not ahead.joins or least < assignment.kept_separation or lost:
         return _plan_again(memory, belief, assignment, planner, reason=reason)
     found = propose(belief, assignment, committed, planner)
     memory, events = count_refusal(memory._replace(asked=belief.t), found)
@@ -284,11 +296,15 @@ def _has_left_capture(memory: Memory, belief: Belief, assignment: Assignment) ->
 
 def _act(memory: Memory, belief: Belief, assignment: Assignment) -> Act:
     course = NO_COURSE if memory.committed is None else memory.committed.course
-    return act(
+    done = act(
         memory.progress, belief.own, belief.limits, course, belief.track.marks,
         belief.turn_to_come, assignment.task, assignment.gate, assignment.gains, belief.drift,
         belief.t,
     )  # fmt: skip
+    if done.joined and memory.mode != "follow" and not belief.at_level:
+        progress = done.progress._replace(mode=NUMBERS["capture"])
+        return done._replace(joined=False, progress=progress)
+    return done
 
 
 def _outlook(memory: Memory, belief: Belief, assignment: Assignment) -> Outlook:
@@ -311,6 +327,40 @@ def _outlook(memory: Memory, belief: Belief, assignment: Assignment) -> Outlook:
     )
 
 
+def _plan_around(
+    memory: Memory,
+    belief: Belief,
+    assignment: Assignment,
+    planner: Planner,
+    outlook: Outlook,
+) -> tuple[Memory, list[Event]]:
+    """Another path where the one that is flown would come too close to another aircraft or a cell.
+
+    What is far ahead may change again: it is planned for less often than what is near.
+    """
+    settings, pressing = assignment.settings, outlook.pressing(belief.t)
+    assert pressing is not None
+    near = pressing.breaks - belief.t <= settings.watch
+    if belief.t - memory.avoided < (settings.retry if near else settings.ask_every):
+        return memory, []
+    found = propose(belief, assignment, memory.committed, planner)
+    memory = memory._replace(avoided=belief.t, in_the_way=_what_it_did(pressing, belief))
+    memory, events = count_refusal(memory, found)
+    if isinstance(found, Proposal):
+        return fly_proposal(memory, belief, assignment, found, "traffic", events)
+    return memory, events
+
+
+def _what_it_did(near: Nearing, belief: Belief) -> str:
+    """Why there is another plan because of one of the others, without a full stop."""
+    for other in belief.others:
+        if other.ident == near.ident and other.broke_its_word:
+            return f"{near.name} does not fly what it declared"
+        if other.ident == near.ident and other.turns_unannounced:
+            return f"{near.name} turns"
+    return near.sentence
+
+
 def _replan_or_escape(
     memory: Memory,
     belief: Belief,
@@ -318,21 +368,28 @@ def _replan_or_escape(
     planner: Planner,
     outlook: Outlook,
 ) -> tuple[Memory, list[Event]]:
-    """Another path if there is one that keeps d_min; else away from the leader."""
+    """Another path if there is one that keeps clear of all; else away from them."""
     turns_on = turns_unannounced(belief, assignment)
+    pressing = outlook.pressing(belief.t, assignment.settings.watch)
     events: list[Event] = []
-    if not turns_on:
+    if not turns_on and memory.avoided != belief.t:
         found = propose(belief, assignment, memory.committed, planner)
         memory, events = count_refusal(memory, found)
         if isinstance(found, Proposal):
-            memory, news = fly_proposal(memory, belief, assignment, found, "separation", events)
+            reason: PlanReason = "separation"
+            if pressing is not None:
+                reason = "traffic"
+                memory = memory._replace(in_the_way=_what_it_did(pressing, belief))
+            memory, news = fly_proposal(memory, belief, assignment, found, reason, events)
             return memory, news
-    why = (
-        "The leader is turning; if it goes on, there may soon be no way to keep clear."
-        if turns_on
-        else f"What is flown would come within {distance(outlook.least)} of the leader."
-    )
-    said = UnableTo(reason="separation", message=f"Unable: {why}")
+    if pressing is not None:
+        why = f"{_what_it_did(pressing, belief)}."
+    elif turns_on:
+        why = "The leader is turning; if it goes on, there may soon be no way to keep clear."
+    else:
+        why = f"What is flown would come within {distance(outlook.least)} of the leader."
+    cause: UnableReason = "separation" if pressing is None else "traffic"
+    said = UnableTo(reason=cause, message=f"Unable: {why}")
     memory, news = turn_away(memory, belief, assignment, why)
     return memory._replace(asked=belief.t), [*events, said, *news]
 
@@ -384,7 +441,7 @@ def _advice(
         across=done.right,
         time_to_go=go,
         joined=done.joined,
-        alert=memory.alert.level,
+        alert=highest(memory.alert, *(alert for _, alert in memory.others)),
         forecast=ahead,
         events=events,
     )

@@ -25,6 +25,7 @@ PlanReason = Literal[
     "intent_received",
     "intent_withdrawn",
     "braking",
+    "traffic",
 ]
 """Why a new plan was made."""
 AlertLevel = Literal["advisory", "caution", "warning"]
@@ -36,10 +37,11 @@ is old or contradicts itself; geometry: it flies where it cannot be followed, as
 back."""
 AlertState = Literal["none", "advisory", "caution", "warning"]
 """The level of the alert that stands, or that there is none."""
-UnableReason = Literal["separation", "speed", "geometry", "envelope", "data"]
+UnableReason = Literal["separation", "speed", "geometry", "envelope", "data", "traffic"]
 """separation: d_min would be lost; speed: the leader flies at a speed that cannot be matched;
 geometry: it flies where it cannot be followed; envelope: the aircraft cannot do what its task asks
-of it; data: what is known of the leader is old or contradicts itself."""
+of it; data: what is known of the leader is old or contradicts itself; traffic: another aircraft,
+or weather, would come too close."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -121,6 +123,8 @@ class Alerted:
     predicted_at: Second
     """Flight time [s]."""
     cleared: bool
+    ident: str = ""
+    """Of the aircraft or cell that it is about; empty for the leader."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -182,8 +186,14 @@ def leader_change(
     return None
 
 
-def reason_sentence(reason: PlanReason, belief: Belief) -> str:
-    """Why there is a new plan, without a full stop."""
+def reason_sentence(reason: PlanReason, belief: Belief, in_the_way: str = "") -> str:
+    """Why there is a new plan, without a full stop.
+
+    Args:
+        reason: of the plan.
+        belief: what is known now.
+        in_the_way: with the reason `traffic`: what the others did, as a sentence without full stop.
+    """
     match reason:
         case "engaged":
             return "Relative guidance engaged"
@@ -210,6 +220,8 @@ def reason_sentence(reason: PlanReason, belief: Belief) -> str:
             return "The leader's intent is no longer known"
         case "braking":
             return "The aircraft slows down otherwise than its data say"
+        case "traffic":
+            return in_the_way
 
 
 def summary(plan: Plan, joins_in: Second) -> str:

@@ -1,17 +1,22 @@
-"""Staying clear of the leader without a plan: a heading, and how much separation it keeps.
+"""Staying clear of all without a plan: a heading, and how much separation it keeps.
 
 Plans assume that a leader that turns unannounced stops turning now, as nothing else is known. But
 it may go on, or slow down, and what keeps d_min if it does not may leave no way out if it does. So
 while it does such things an escape is kept in sight: a turn and a straight, begun a second later,
 that keep d_min wherever the leader's turn ends.
+
+Others have minima of their own. What is kept of one counts as d_min and what is left beside its
+minimum, so that one figure says how clear a heading is of all.
 """
 
-from math import inf
+from collections.abc import Iterable, Iterator
+from math import hypot, inf
 from typing import NamedTuple
 
 import numpy as np
 
 from relguide.flying.belief import Belief
+from relguide.flying.guidance.amid import nearings
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import NO_COURSE, forecast
 from relguide.kernels.base.angles import wrap, wrap_signed
@@ -22,6 +27,8 @@ from relguide.kernels.flight.guide import HOLD, Progress
 from relguide.kernels.flight.program import roll_lead
 from relguide.kernels.separation import least_bad_turn as kernel
 from relguide.kernels.separation.approach import least_separation
+from relguide.kernels.separation.cell import least_from_cell, signed_distance
+from relguide.planning.certificate import cell_shape
 from relguide.planning.tables import motion_of
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
@@ -35,6 +42,25 @@ HEADINGS = 36
 """So many are tried, to both sides by turns."""
 FAINT: Radian = 2.0 * DEG
 """An escape's heading is found to 10°; smaller differences do not count [rad]."""
+
+
+NO_CELL = np.zeros(0)
+"""In place of the numbers of a cell."""
+ENDS = np.arange(ENDS_EVERY, TURNS_ON + 0.5 * ENDS_EVERY, ENDS_EVERY).tolist()
+"""Where a turn may end that is not announced [rad]."""
+FOUND_TO: Metre = 1.0
+"""Separations are found to this [m]."""
+REGAINED_AFTER: Second = 30.0
+"""What is already too near counts from so long on: until then no heading makes a difference [s]."""
+
+
+class Kept(NamedTuple):
+    """What is kept on a heading, and of whom."""
+
+    least_separation: Metre
+    """Least separation [m]."""
+    ident: str
+    """Of the other that comes nearest to its minimum; empty for the leader."""
 
 
 class Escape(NamedTuple):
@@ -70,6 +96,7 @@ def escape(
         delay: how long the pursuer goes on as it does before it turns [s].
     """
     own, bank = belief.own, assignment.planned_bank
+    obstacles = _obstacles(belief, assignment)
     rate, full = turn_rate(own.tas, own.bank), turn_rate(own.tas, bank)
     before = np.array(
         [
@@ -77,6 +104,11 @@ def escape(
             for side in (-1.0, 0.0, 1.0)
         ]
     )
+    if obstacles:
+        d_min = assignment.min_separation
+        leaders = _variants(belief, d_min, turns_on=turns_on, other_tas=other_tas)
+        among = (*leaders, *obstacles)
+        return _escape_among(belief, assignment, among, before, min_separation)
     best = Escape(own.heading, inf, own.tas)
     for leader in _leaders(belief, other_tas):
         side, angle, least = kernel.escape_path(
@@ -126,7 +158,11 @@ def separation_flown(
     holding = Progress(HOLD, 0.0, heading, tas)
     until = belief.t + assignment.settings.look_out
     ahead = forecast(belief, assignment, holding, NO_COURSE, until=until)
-    return ahead.least(belief.t)[0]
+    least, _ = ahead.least(belief.t)
+    others = nearings(ahead, belief, assignment)
+    if others:
+        least = min(least, assignment.min_separation + others[0].spare)
+    return least
 
 
 def separation_on_heading(
@@ -138,6 +174,20 @@ def separation_on_heading(
     other_tas: MetrePerSecond | None = None,
 ) -> Metre:
     """The least separation if the pursuer turns the shorter way to a heading and keeps it [m]."""
+    return kept_on_heading(
+        belief, assignment, heading, turns_on=turns_on, other_tas=other_tas
+    ).least_separation
+
+
+def kept_on_heading(
+    belief: Belief,
+    assignment: Assignment,
+    heading: Radian,
+    *,
+    turns_on: bool = False,
+    other_tas: MetrePerSecond | None = None,
+) -> Kept:
+    """The same, and of whom."""
     own, bank = belief.own, assignment.planned_bank
     turn = wrap_signed(heading - own.heading)
     side = 1.0 if turn > 0.0 else -1.0
@@ -145,14 +195,135 @@ def separation_on_heading(
     roll = roll_lead(belief.limits, own.bank, side * bank) if abs(turn) > FAINT else 0.0
     pieces = np.array([(roll, turn_rate(own.tas, own.bank)), (abs(turn) / full, side * full)])
     ours = _motion(belief)._replace(pieces=pieces)
-    look_out = assignment.settings.look_out
-    return float(
-        min(
-            least_separation(ours, leader._replace(pieces=rows), 0.0, look_out, 1.0)[0]
-            for leader in _leaders(belief, other_tas)
-            for rows in _pieces(belief, leader, turns_on=turns_on)
-        )
+    all_of_them = (
+        *_variants(belief, 0.0, turns_on=turns_on, other_tas=other_tas),
+        *_obstacles(belief, assignment),
     )
+    return _kept(ours, all_of_them, assignment)
+
+
+class _Obstacle(NamedTuple):
+    """What is to be kept clear of: one way that an aircraft may fly, or a cell."""
+
+    ident: str
+    """Empty for the leader."""
+    motion: Motion | None
+    """`None` for a cell."""
+    corners: FloatArray
+    """Of a cell. shape (n, 2)"""
+    cell: FloatArray
+    """Its radius, growth and velocity in the air mass, as `least_from_cell` takes them."""
+    limit: Metre
+    """What is to be kept of others [m]."""
+    begin: Second
+    """From when on it counts [s]: not at once where it is lost already."""
+
+
+def _kept(
+    ours: Motion, obstacles: Iterable[_Obstacle], assignment: Assignment, enough: Metre = -inf
+) -> Kept:
+    """The least that a path keeps of all; what comes after the first below `enough` is not tried.
+
+    Args:
+        ours: the path.
+        obstacles: those to be kept clear of.
+        assignment: gives d_min, and how far to look.
+        enough: a path that keeps no more than this is not looked at further [m].
+    """
+    look_out, d_min = assignment.settings.look_out, assignment.min_separation
+    kept = Kept(inf, "")
+    for one in obstacles:
+        if one.motion is not None:
+            least = least_separation(ours, one.motion, one.begin, look_out, FOUND_TO)[0]
+        else:
+            path = np.array([ours.x, ours.y, ours.heading, ours.tas, *_lengths(ours)])
+            least = least_from_cell(path, one.corners, one.cell, one.begin, look_out, FOUND_TO)[0]
+        if one.ident:
+            least += d_min - one.limit
+        if least < kept.least_separation:
+            kept = Kept(float(least), one.ident)
+            if kept.least_separation <= enough:
+                break
+    return kept
+
+
+def _lengths(motion: Motion) -> list[float]:
+    """Length [m] and curvature [rad/m] of each piece in turn."""
+    lengths = motion.pieces * np.array([motion.tas, 1.0 / motion.tas])
+    return list(lengths.ravel().tolist())
+
+
+def _escape_among(
+    belief: Belief,
+    assignment: Assignment,
+    obstacles: tuple[_Obstacle, ...],
+    before: FloatArray,
+    min_separation: Metre,
+) -> Escape:
+    """As the kernel's `escape_path`, of all obstacles at once."""
+    own = belief.own
+    rate, full = turn_rate(own.tas, own.bank), turn_rate(own.tas, assignment.planned_bank)
+    best = Escape(own.heading, -inf, own.tas)
+    for k in range(HEADINGS - 1):
+        side = 0 if k == 0 else 1 if k % 2 == 0 else -1
+        angle = TRIED_EVERY * ((k + 1) // 2)
+        pieces = np.array([before[side + 1], (angle / full, side * full)])
+        ours = _motion(belief)._replace(pieces=pieces)
+        kept = _kept(ours, obstacles, assignment, best.least_separation).least_separation
+        if kept > best.least_separation:
+            turned = before[side + 1, 0] * rate + side * angle
+            best = Escape(wrap(own.heading + turned), kept, own.tas)
+        if best.least_separation >= min_separation:
+            break
+    return best
+
+
+def _variants(
+    belief: Belief, d_min: Metre, *, turns_on: bool, other_tas: MetrePerSecond | None
+) -> Iterator[_Obstacle]:
+    """All that the leader may do."""
+    begin = REGAINED_AFTER if belief.separation < d_min else 0.0
+    for leader in _leaders(belief, other_tas):
+        for rows in _pieces(belief, leader, turns_on=turns_on):
+            yield _Obstacle("", leader._replace(pieces=rows), NO_CELL, NO_CELL, 0.0, begin)
+
+
+def _obstacles(belief: Belief, assignment: Assignment) -> tuple[_Obstacle, ...]:
+    """All others that may come near while an escape looks out, with all that they may do."""
+    return (*_traffic(belief, assignment), *_cells(belief, assignment))
+
+
+def _traffic(belief: Belief, assignment: Assignment) -> Iterator[_Obstacle]:
+    settings, own = assignment.settings, belief.own
+    for other in belief.others:
+        body, limit = other.body, other.min_separation
+        apart = hypot(body.x - own.x, body.y - own.y)
+        if apart > limit + (own.tas + body.tas) * settings.look_out:
+            continue
+        # what is nearer now than it should be cannot be kept farther off, but for what is lost
+        begin = REGAINED_AFTER if apart < limit else 0.0
+        limit = limit if apart < limit else min(limit, apart - settings.escape_tube)
+        motions = [motion_of(other.traffic.trajectory)]
+        if other.turns_unannounced:
+            now = motions[0]._replace(heading=body.heading)
+            rate = other.turn_rate
+            motions += [now._replace(pieces=np.array([[end / abs(rate), rate]])) for end in ENDS]
+        for motion in motions:
+            yield _Obstacle(other.ident, motion, NO_CELL, NO_CELL, limit, begin)
+
+
+def _cells(belief: Belief, assignment: Assignment) -> Iterator[_Obstacle]:
+    settings, own = assignment.settings, belief.own
+    for cell in belief.cells:
+        corners, shape = cell_shape(cell, belief.wind)
+        apart = float(signed_distance(own.x, own.y, corners, shape[0])[0])
+        speed = hypot(cell.east, cell.north) + cell.growth
+        wind = hypot(belief.wind.east, belief.wind.north)
+        if apart > (own.tas + wind + speed) * settings.look_out:
+            continue
+        begin = REGAINED_AFTER if apart < 0.0 else 0.0
+        limit = 0.0 if apart < 0.0 else min(0.0, apart - settings.escape_tube)
+        yield _Obstacle(cell.ident, None, corners, shape, limit, begin)
 
 
 def _motion(belief: Belief) -> Motion:
@@ -171,7 +342,7 @@ def _leaders(belief: Belief, other_tas: MetrePerSecond | None) -> tuple[Motion, 
 def _pieces(belief: Belief, leader: Motion, *, turns_on: bool) -> FloatArray:
     """Pieces of all that the leader may do: its declared intent, or a turn that goes on."""
     known, rate = leader.pieces, belief.leader_turn_rate
-    ends = np.arange(ENDS_EVERY, TURNS_ON + 0.5 * ENDS_EVERY, ENDS_EVERY) if turns_on else ()
+    ends = ENDS if turns_on else ()
     pieces = np.zeros((1 + len(ends), max(len(known), 1), 2))
     pieces[0, : len(known)] = known
     for i, end in enumerate(ends, start=1):

@@ -143,4 +143,6 @@ def _later(belief: Belief, path: Committed) -> Belief:
     t, ahead = belief.t + KNOWN_BEFORE, path.forecast
     k = ahead.row(t)
     own, leader = (Body(*rows[k].tolist()) for rows in (ahead.own, ahead.leader))
-    return replace(belief, t=t, own=own, leader=leader)
+    others = tuple(other.later(KNOWN_BEFORE) for other in belief.others)
+    cells = tuple(cell.after(KNOWN_BEFORE) for cell in belief.cells)
+    return replace(belief, t=t, own=own, leader=leader, others=others, cells=cells)

@@ -9,8 +9,8 @@ from relguide.flying.guidance.escape import (
     Escape,
     escape,
     flown_escape,
+    kept_on_heading,
     separation_flown,
-    separation_on_heading,
 )
 from relguide.flying.guidance.leader_news import turns_unannounced
 from relguide.flying.guidance.memory import Memory, enter
@@ -47,7 +47,7 @@ def turn_away(
 def clear_way(
     memory: Memory, belief: Belief, assignment: Assignment, *, slower: bool = False
 ) -> Escape:
-    """The heading nearest to the present one that keeps clear of the leader, and the speed."""
+    """The heading nearest to the present one that keeps clear of all, and the speed."""
     other_tas = _other_tas(memory, belief, assignment)
     if slower:
         other_tas = assignment.settings.slows_to_share * belief.leader.tas
@@ -71,17 +71,19 @@ def keep_heading(
     memory: Memory, belief: Belief, assignment: Assignment
 ) -> tuple[Memory, list[Event]]:
     """Keep the heading held for as long as it keeps clear; a new one does not come in silence."""
-    if memory.mode not in ("heading", "escape"):
+    if memory.mode not in ("heading", "escape") or not belief.counts:
         return memory, []
     settings, progress = assignment.settings, memory.progress
     turns_on = turns_unannounced(belief, assignment)
     other_tas = _other_tas(memory, belief, assignment)
-    kept = separation_on_heading(
+    kept, of = kept_on_heading(
         belief, assignment, progress.heading, turns_on=turns_on, other_tas=other_tas
     )
     if kept >= assignment.min_separation + settings.escape_tube:
         return memory, []
-    if belief.separation < min(assignment.min_separation, kept + settings.escape_tube):
+    if not of and belief.counted_separation < min(
+        assignment.min_separation, kept + settings.escape_tube
+    ):
         # already lost, and at its least: nothing is to be kept, but d_min regained soonest
         soonest = restore(situation_now(belief, assignment))
         gained = _regained_in(belief, progress.heading, assignment) - soonest.at_time
@@ -98,13 +100,14 @@ def keep_heading(
         out = clear_way(memory, belief, assignment)
         if out.least_separation < better_than:
             return memory, []
-        heading, tas, purpose = out.heading, out.tas, "to keep clear of the leader"
+        heading, tas = out.heading, out.tas
+        purpose = f"to keep clear of {of or 'the leader'}"
     said: list[Event] = []
     if tas < progress.tas:
         purpose = f"slowing down, {purpose}"
     if tas < progress.tas or abs(wrap_signed(heading - progress.heading)) > settings.heading_news:
         message = f"Turning to {compass(heading)}, {purpose}."
-        said.append(UnableTo(reason="separation", message=message))
+        said.append(UnableTo(reason="traffic" if of else "separation", message=message))
     return memory._replace(progress=progress._replace(heading=heading, tas=tas)), said
 
 
@@ -124,15 +127,19 @@ def _regained_in(belief: Belief, heading: Radian, assignment: Assignment) -> Sec
 def must_leave(memory: Memory, belief: Belief, assignment: Assignment, outlook: Outlook) -> bool:
     """Whether what is flown now would lose d_min, or soon leave no way to keep it."""
     t, limit = belief.t, assignment.min_separation
+    settings = assignment.settings
+    pressing = outlook.pressing(t, settings.watch)
+    if pressing is not None and pressing.breaks - t <= settings.caution:
+        return True
     ahead, kept = outlook.forecast, limit
     if memory.committed is None:
-        kept = min(limit + assignment.settings.forecast_error, belief.separation)
-    if ahead.rest(t) < kept and ahead.least(t, assignment.settings.caution)[0] < kept:
+        kept = min(limit + settings.forecast_error, belief.separation)
+    if ahead.rest(t) < kept and ahead.least(t, settings.caution)[0] < kept:
         return True
     turns_on = turns_unannounced(belief, assignment)
-    if not turns_on and outlook.least >= limit:
+    if not turns_on and outlook.least >= limit and pressing is None:
         return False  # a change of speed is answered by speed, as the outlook has it
-    wanted = min(limit + assignment.settings.escape_tube, belief.separation)
+    wanted = min(limit + settings.escape_tube, belief.separation)
     other_tas = _other_tas(memory, belief, assignment)
     later = escape(belief, assignment, wanted, turns_on=turns_on, other_tas=other_tas, delay=1.0)
     return later.least_separation < wanted

@@ -129,6 +129,12 @@ class Memory(NamedTuple):
     """How often an exact plan took the place of the planner's, for whatever reason."""
     refused: Fault | None
     """What was wrong with the planner's last plan; `None` if it could be flown."""
+    others: tuple[tuple[str, StandingAlert], ...] = ()
+    """The alerts that stand on others, by ident."""
+    avoided: Second = LONG_AGO
+    """When a plan was last asked for because another came in the way, flight time [s]."""
+    in_the_way: str = ""
+    """What that one did, as a sentence without full stop."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,14 +2,16 @@
 
 It trusts the forecast for as long as both aircraft are where that has them. Else it flies ahead
 anew: with the leader as it is expected to go on, and, while it turns unannounced or changes its
-speed, with a leader that goes on doing so. An alert begins when separation would be lost within
-`caution` seconds, is a warning when it is lost, and ends some seconds after its cause has.
+speed, with a leader that goes on doing so. All others are held against the same flight ahead. An
+alert begins when separation would be lost within `caution` seconds, is a warning when it is lost,
+and ends some seconds after its cause has.
 """
 
 from math import inf
 from typing import NamedTuple
 
 from relguide.flying.belief import SEEMS, Belief
+from relguide.flying.guidance.amid import Nearing, nearings
 from relguide.flying.guidance.announcements import Alerted, AlertLevel, AlertState, Event
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast, forecast
@@ -24,6 +26,11 @@ URGENCY: dict[AlertState, int] = {"none": 0, "advisory": 1, "caution": 2, "warni
 """Levels in order."""
 
 
+def highest(*standing: StandingAlert) -> AlertState:
+    """The most urgent level of the alerts that stand."""
+    return max((alert.level for alert in standing), key=URGENCY.__getitem__)
+
+
 class Outlook(NamedTuple):
     """What lies ahead if nothing is done."""
 
@@ -33,6 +40,18 @@ class Outlook(NamedTuple):
     """Least separation, over all that is reckoned with [m]."""
     at: Second
     """When, flight time [s]."""
+    others: tuple[Nearing, ...] = ()
+    """How near it comes to each of the others, the least spare first."""
+
+    def pressing(self, t: Second, within: Second = inf) -> Nearing | None:
+        """The first of the others whose minimum is lost ahead; `None` if all are kept.
+
+        Args:
+            t: flight time now [s].
+            within: how far to look [s].
+        """
+        lost = [one for one in self.others if one.breaks < inf and one.breaks - t <= within]
+        return min(lost, key=lambda one: one.breaks, default=None)
 
 
 def is_as_forecast(ahead: Forecast, belief: Belief, assignment: Assignment) -> bool:
@@ -102,7 +121,7 @@ def look_out(
         other, when = worse.least(belief.t)
         if other < least:
             least, at = other, when
-    return Outlook(ahead, least, at)
+    return Outlook(ahead, least, at, nearings(ahead, belief, assignment, turning_on=True))
 
 
 def judge_separation(
@@ -119,37 +138,96 @@ def judge_separation(
     t, limit, settings = belief.t, assignment.min_separation, assignment.settings
     apart = belief.separation
     level: AlertState = "none"
-    if apart < limit:
+    if belief.counted_separation < limit:
         level = "warning"
     elif outlook.least < limit and outlook.at - t <= settings.caution:
         level = "caution"
-    if level == "none":
-        if alert.level == "none" or t - alert.seen < settings.clears_after:
-            return alert, ()
-        said = Alerted(
-            subject="separation",
-            level=alert.level,
-            message="Separation is kept again.",
-            predicted_least=outlook.least if outlook.least < inf else apart,
-            predicted_at=outlook.at,
-            cleared=True,
-        )
-        return StandingAlert(), (said,)
-    if URGENCY[level] < URGENCY[alert.level] and t - alert.seen < settings.clears_after:
+    alert, step = _next(alert, level, t, settings.clears_after)
+    if step is None:
         return alert, ()
-    seen = StandingAlert(level, t)
-    if level == alert.level:
-        return seen, ()
-    return seen, (
-        Alerted(
-            subject="separation",
-            level=level,
-            message=_sentence(level, outlook, apart, t, limit),
-            predicted_least=outlook.least if outlook.least < inf else apart,
-            predicted_at=outlook.at,
-            cleared=False,
-        ),
+    said = Alerted(
+        subject="separation",
+        level=step.level,
+        message="Separation is kept again."
+        if step.cleared
+        else _sentence(step.level, outlook, apart, t, limit),
+        predicted_least=outlook.least if outlook.least < inf else apart,
+        predicted_at=outlook.at,
+        cleared=step.cleared,
     )
+    return alert, (said,)
+
+
+def judge_others(
+    standing: tuple[tuple[str, StandingAlert], ...],
+    outlook: Outlook,
+    belief: Belief,
+    assignment: Assignment,
+) -> tuple[tuple[tuple[str, StandingAlert], ...], tuple[Event, ...]]:
+    """The alerts that stand on others now, and what is said of them.
+
+    Args:
+        standing: those of a second ago, by ident.
+        outlook: what lies ahead.
+        belief: gives the time.
+        assignment: gives how far ahead an alert looks.
+    """
+    before, t, settings = dict(standing), belief.t, assignment.settings
+    stand, said = list[tuple[str, StandingAlert]](), list[Event]()
+    for near in outlook.others:
+        level: AlertState = "none"
+        if near.now < near.limit:
+            level = "warning"
+        elif near.breaks - t <= settings.caution:
+            level = "caution"
+        was = before.get(near.ident, StandingAlert())
+        alert, step = _next(was, level, t, settings.clears_after)
+        if alert.level != "none":
+            stand.append((near.ident, alert))
+        if step is None:
+            continue
+        said.append(
+            Alerted(
+                subject="separation",
+                level=step.level,
+                message=f"{near.name}: the separation is kept again."
+                if step.cleared
+                else _other_sentence(step.level, near, t),
+                predicted_least=near.least,
+                predicted_at=near.at,
+                cleared=step.cleared,
+                ident=near.ident,
+            )
+        )
+    return tuple(stand), tuple(said)
+
+
+class _Step(NamedTuple):
+    """What is new of an alert."""
+
+    level: AlertLevel
+    """That begins or, when cleared, ends."""
+    cleared: bool
+
+
+def _next(
+    alert: StandingAlert, level: AlertState, t: Second, clears_after: Second
+) -> tuple[StandingAlert, _Step | None]:
+    """The alert that stands now, and what is new of it; `None` if nothing is.
+
+    Args:
+        alert: the one of a second ago.
+        level: what its cause asks for now.
+        t: flight time [s].
+        clears_after: so long after its cause it ends [s].
+    """
+    if level == "none":
+        if alert.level == "none" or t - alert.seen < clears_after:
+            return alert, None
+        return StandingAlert(), _Step(alert.level, True)
+    if URGENCY[level] < URGENCY[alert.level] and t - alert.seen < clears_after:
+        return alert, None
+    return StandingAlert(level, t), None if level == alert.level else _Step(level, False)
 
 
 def _sentence(level: AlertLevel, outlook: Outlook, apart: Metre, t: Second, limit: Metre) -> str:
@@ -158,4 +236,16 @@ def _sentence(level: AlertLevel, outlook: Outlook, apart: Metre, t: Second, limi
     return (
         f"Separation in {max(outlook.at - t, 0.0):.0f} s: {distance(outlook.least)}, "
         f"less than {distance(limit)}."
+    )
+
+
+def _other_sentence(level: AlertLevel, near: Nearing, t: Second) -> str:
+    if near.is_cell:
+        when = "now" if level == "warning" else f"in {max(near.breaks - t, 0.0):.0f} s"
+        return f"{near.name}: inside {when}."
+    if level == "warning":
+        return f"{near.name}: {distance(near.now)}, less than {distance(near.limit)}."
+    return (
+        f"{near.name} in {max(near.at - t, 0.0):.0f} s: {distance(near.least)}, "
+        f"less than {distance(near.limit)}."
     )

@@ -28,6 +28,11 @@ from relguide.planning.plan import NoPlan, Plan, Reason
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Second
 
+UNABLE: dict[Reason, UnableReason] = {
+    Reason.SLOT_UNREACHABLE: "speed",
+    Reason.TRAFFIC: "traffic",
+}
+"""Why guidance is unable without a plan; for all other reasons: `separation`."""
 SHARES = (0.33, 0.67, 1.0)
 """Where along their durations two paths are compared."""
 
@@ -54,11 +59,12 @@ def fly_proposal(
     fresh = is_news(memory, belief, assignment, committed, shown.trajectory, reason)
     announced = fresh and (
         memory.announced is None
-        or reason in ("separation", "engaged", "resumed")
+        or reason in ("separation", "traffic", "engaged", "resumed")
         or may_speak(memory, belief, assignment)
     )
     joins = committed.joins_at(committed.forecast)
-    text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
+    why = reason_sentence(reason, belief, memory.in_the_way)
+    text = f"{why}: {summary(shown, joins - belief.t)}."
     said = NewPlan(
         committed=committed, shown=shown, reason=reason, message=text, announced=announced
     )
@@ -137,7 +143,8 @@ def announce_pending(
         return memory, []
     shown = shown_rest(committed, belief, assignment)
     joins = committed.joins_at(memory.forecast or committed.forecast)
-    text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
+    why = reason_sentence(reason, belief, memory.in_the_way)
+    text = f"{why}: {summary(shown, joins - belief.t)}."
     said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
     pause = assignment.settings.announce_after
     memory = memory._replace(fallbacks=memory.fallbacks + committed.plan.fell_back)
@@ -160,6 +167,8 @@ def count_refusal(
 def retry_pause(memory: Memory, belief: Belief, assignment: Assignment) -> Second:
     """How long to wait for the next try without a plan [s]: longer, if nothing is new for long."""
     settings = assignment.settings
+    if memory.missing == Reason.TRAFFIC:  # which moves on
+        return settings.retry
     quiet = settings.retry_share * (belief.t - max(memory.changed, memory.since))
     return min(max(settings.retry, quiet), settings.retry_longest)
 
@@ -170,6 +179,6 @@ def say_no_plan(
     """Why there is no plan, once while the reason stays the same."""
     if memory.missing != answer.reason:
         events.append(PlanMissing(answer=answer))
-        reason: UnableReason = "speed" if answer.reason == Reason.SLOT_UNREACHABLE else "separation"
+        reason = UNABLE.get(answer.reason, "separation")
         events.append(UnableTo(reason=reason, message=f"Unable: {answer.message}"))
     return memory._replace(missing=answer.reason), events

@@ -23,7 +23,7 @@ NAMES = PairNames("A", "B")
 def count(*documents: Document) -> FlightMetrics:
     metrics = FlightMetrics(inf)
     for document in documents:
-        metrics = count_event(metrics, document)
+        metrics = count_event(metrics, document, NAMES.leader)
     return metrics
 
 
@@ -87,7 +87,7 @@ def test_a_loss_keeps_its_least_separation() -> None:
     metrics = count(loss(10.0, 9_250.0))
     metrics = count_loss(count_loss(metrics, 9_100.0), 9_200.0)
     assert metrics.losses == (Loss(t=10.0, separation=9_100.0, cause="why", announced=()),)
-    again = count_loss(count_event(metrics, loss(50.0, 9_255.0)), 9_000.0)
+    again = count_loss(count_event(metrics, loss(50.0, 9_255.0), "B"), 9_000.0)
     assert [one.separation for one in again.losses] == [9_100.0, 9_000.0]
 
 

@@ -3,7 +3,10 @@
 Faster by a margin, since a change of plan costs roll reversals, and what is far ahead is uncertain.
 """
 
+from math import inf
+
 from relguide.flying.belief import Belief
+from relguide.flying.guidance.amid import keeps_clear
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.guidance.commit.course import commit
@@ -30,9 +33,13 @@ def better(
     left, margin = committed.due - belief.t, change_margin(committed, belief.t, assignment)
     lead = lead_in(belief, assignment, committed)
     limit = assignment.buffered_separation
-    if lead.separation < limit:
+    if lead.separation < limit and belief.counted_separation < inf:
         return NotBetter(fell_back=False, refusal=None)
-    answer = ask(planner, situation_of(assignment, lead.pursuer, lead.leader, belief, limit))
+    situation = situation_of(
+        assignment, lead.pursuer, lead.leader, belief, limit,
+        seconds=lead.seconds, aside=limit - assignment.min_separation,
+    )  # fmt: skip
+    answer = ask(planner, situation)
     plan = answer.plan
     stays = NotBetter(fell_back=answer.fell_back, refusal=answer.refusal)
     if isinstance(plan, NoPlan) or lead.seconds + plan.time_to_converge > left - margin:
@@ -43,6 +50,8 @@ def better(
         found.forecast.joins and found.forecast.join_time < committed.forecast.join_time - margin
     )
     if least < assignment.kept_separation or not sooner:
+        return stays
+    if keeps_clear(found.forecast, belief, assignment) is not None:
         return stays
     shown = shown_plan(plan, lead, belief, assignment)
     return Proposal(

@@ -1,8 +1,10 @@
 """propose(belief, …) → Proposal: a path to fly from now on, whatever was flown before."""
 
 from dataclasses import replace
+from math import inf
 
 from relguide.flying.belief import Belief
+from relguide.flying.guidance.amid import Nearing, keeps_clear
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.guidance.commit.course import commit
@@ -13,7 +15,8 @@ from relguide.flying.guidance.commit.shown_plan import shown_plan
 from relguide.flying.guidance.situations import situation_now, situation_of
 from relguide.planning.acceptance import FlyableAnswer, ask
 from relguide.planning.phrases import distance
-from relguide.planning.plan import NoPlan, Planner, Reason
+from relguide.planning.plan import Conflict, NoPlan, Planner, Reason
+from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Metre, Second
 
@@ -45,20 +48,22 @@ def propose(
             planner's is faster by more than this [s].
     """
     lead = lead_in(belief, assignment, committed)
-    apart = lead.separation
+    apart = lead.separation if belief.counted_separation < inf else inf
     limit = assignment.buffered_separation
-    limits = [limit] if apart >= limit else []
+    wanted = limit if apart >= limit else assignment.min_separation
+    tries = BUFFERS if apart >= limit else BUFFERS + 1
+    aside = wanted - assignment.min_separation
     before = lead.left if like is None or committed is not None else begun_now(like, belief)
     fell_back, refusal = False, None
     closest: Metre = 0.0
-    while len(limits) <= BUFFERS:
-        wanted = limits[-1] if limits else assignment.min_separation
-        situation = situation_of(assignment, lead.pursuer, lead.leader, belief, wanted)
+    in_the_way: Nearing | None = None
+    for _ in range(tries):
+        situation = _situation(lead, belief, assignment, wanted, aside)
         answer = ask(planner, situation)
         fell_back, refusal = fell_back or answer.fell_back, refusal or answer.refusal
         plan = answer.plan
         if isinstance(plan, NoPlan):
-            if limits and wanted > assignment.kept_separation:
+            if max(wanted, assignment.min_separation + aside) > assignment.kept_separation:
                 return _propose_without_buffer(belief, assignment, planner, lead, answer)
             if plan.reason == Reason.SEPARATION_ALREADY_LOST:
                 plan = _refuse_lost(plan, belief, assignment, planner, lead)
@@ -71,14 +76,39 @@ def propose(
             plan = kept
         found = commit(plan, lead, belief, assignment)
         least, _ = found.forecast.least(belief.t)
-        if least >= assignment.kept_separation:
+        in_the_way = keeps_clear(found.forecast, belief, assignment)
+        if least >= assignment.kept_separation and in_the_way is None:
             shown = shown_plan(plan, lead, belief, assignment)
             return Proposal(committed=found, shown=shown, fell_back=fell_back, refusal=refusal)
-        closest = max(closest, least)
-        limits.append(min(wanted + assignment.kept_separation - least + WIDER, assignment.aim))
-        if apart < limits[-1] or wanted >= assignment.aim:
-            break
-    return NoProposal(answer=_too_close(closest, assignment), fell_back=fell_back, refusal=refusal)
+        if in_the_way is not None:
+            aside += in_the_way.margin - in_the_way.spare + WIDER
+        if least < assignment.kept_separation:
+            closest = max(closest, least)
+            wider = min(wanted + assignment.kept_separation - least + WIDER, assignment.aim)
+            if apart < wider or wanted >= assignment.aim:
+                break
+            wanted = wider
+    no_plan = (
+        _too_close(closest, assignment)
+        if in_the_way is None or closest > 0.0
+        else _in_the_way(in_the_way, belief)
+    )
+    return NoProposal(answer=no_plan, fell_back=fell_back, refusal=refusal)
+
+
+def _situation(
+    lead: LeadIn, belief: Belief, assignment: Assignment, wanted: Metre, aside: Metre
+) -> Situation:
+    """What is asked of a planner, from where a lead-in ends."""
+    return situation_of(
+        assignment,
+        lead.pursuer,
+        lead.leader,
+        belief,
+        wanted,
+        seconds=lead.seconds,
+        aside=aside,
+    )
 
 
 def _propose_without_buffer(
@@ -86,7 +116,8 @@ def _propose_without_buffer(
 ) -> Proposal | NoProposal:
     """With d_min and what is uncertain, where nothing keeps the buffer as well."""
     limit = assignment.kept_separation
-    answer = ask(planner, situation_of(assignment, lead.pursuer, lead.leader, belief, limit))
+    aside = limit - assignment.min_separation
+    answer = ask(planner, _situation(lead, belief, assignment, limit, aside))
     fell_back = wide.fell_back or answer.fell_back
     refusal = answer.refusal or wide.refusal
     if isinstance(answer.plan, NoPlan):
@@ -96,6 +127,10 @@ def _propose_without_buffer(
     if least < limit:
         too_close = _too_close(least, assignment)
         return NoProposal(answer=too_close, fell_back=fell_back, refusal=refusal)
+    in_the_way = keeps_clear(found.forecast, belief, assignment)
+    if in_the_way is not None:
+        no_plan = _in_the_way(in_the_way, belief)
+        return NoProposal(answer=no_plan, fell_back=fell_back, refusal=refusal)
     shown = shown_plan(answer.plan, lead, belief, assignment)
     return Proposal(committed=found, shown=shown, fell_back=fell_back, refusal=refusal)
 
@@ -104,7 +139,7 @@ def _refuse_lost(
     later: NoPlan, belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn
 ) -> NoPlan:
     """Why no plan can begin where the lead-in ends, in figures of now."""
-    if belief.separation < assignment.min_separation:
+    if belief.counted_separation < assignment.min_separation:
         now = ask(planner, situation_now(belief, assignment)).plan
         return now if isinstance(now, NoPlan) else later
     return NoPlan(
@@ -121,4 +156,18 @@ def _too_close(least: Metre, assignment: Assignment) -> NoPlan:
         reason=Reason.SEPARATION_UNAVOIDABLE,
         message=f"A path exists, but an aircraft that has to roll and brake would come within "
         f"{distance(least)} of the leader on it, closer than {distance(limit)}.",
+    )
+
+
+def _in_the_way(other: Nearing, belief: Belief) -> NoPlan:
+    """Why a plan that exists is not flown amid others."""
+    return NoPlan(
+        reason=Reason.TRAFFIC,
+        message=f"A path exists, but on it, as an aircraft flies it, {other.sentence}.",
+        conflict=Conflict(
+            ident=other.ident,
+            at_time=other.at - belief.t,
+            least_separation=other.least,
+            min_separation=other.limit,
+        ),
     )
