@@ -77,12 +77,15 @@ def world_of(encounter: dict[str, Any]) -> World:
 
 
 def losses_if_straight(encounter: dict[str, Any]) -> dict[str, float]:
-    """Who comes too close if all keep straight, and when first [s]: uniform wind moves all alike."""
+    """Who comes too close if all keep straight, and when first [s].
+
+    Uniform wind moves all alike.
+    """
 
     def places(state: dict[str, Any], t: np.ndarray) -> np.ndarray:
         heading = radians(state["heading_deg"])
         way = state["tas_mps"] * t[:, None] * np.array([np.sin(heading), np.cos(heading)])
-        return np.asarray([state["x_m"], state["y_m"]] + way)
+        return np.asarray(way + np.array([state["x_m"], state["y_m"]]))
 
     t = np.arange(0.0, UNTIL, 0.1)
     own, lost = places(encounter["own"], t), {}
