@@ -61,6 +61,12 @@ def level_at(altitude: Metre) -> Vertical:
     return Vertical(altitude, 0.0, altitude, 1.0)
 
 
+def level_off(now: Vertical) -> Vertical:
+    """To the level that is reached soonest without a step."""
+    to = now.altitude + 0.5 * now.speed * abs(now.speed) / PULL
+    return now._replace(to=to, rate=max(abs(now.speed), PULL), hold="tas")
+
+
 def begin_change(
     now: Vertical, to: Metre, rate: MetrePerSecond, hold: SpeedRule, tas: MetrePerSecond, air: Air
 ) -> Vertical:
