@@ -53,6 +53,7 @@ if typing.TYPE_CHECKING:
     from relguide.flying.orders import IntentKnown as IntentKnown
     from relguide.flying.orders import LeaderData as LeaderData
     from relguide.flying.orders import LeaderHeading as LeaderHeading
+    from relguide.flying.orders import LeaderLevel as LeaderLevel
     from relguide.flying.orders import LeaderSpeed as LeaderSpeed
     from relguide.flying.orders import PursuerHeading as PursuerHeading
     from relguide.flying.orders import SetEngagement as SetEngagement
@@ -152,6 +153,7 @@ _HOMES = {
     "IntentKnown": "relguide.flying.orders",
     "LeaderData": "relguide.flying.orders",
     "LeaderHeading": "relguide.flying.orders",
+    "LeaderLevel": "relguide.flying.orders",
     "LeaderSpeed": "relguide.flying.orders",
     "PursuerHeading": "relguide.flying.orders",
     "SetEngagement": "relguide.flying.orders",
@@ -257,6 +259,7 @@ __all__ = [
     "LeaderChanged",
     "LeaderData",
     "LeaderHeading",
+    "LeaderLevel",
     "LeaderRoute",
     "LeaderSpeed",
     "LevelChange",

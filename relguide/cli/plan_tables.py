@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from relguide.cli.others_tables import print_conflict, print_others
+from relguide.cli.others_tables import print_levels, print_others
 from relguide.cli.shared_tables import clock, miles
 from relguide.flying.plan_documents import (
     AlternativeCard,
@@ -73,6 +73,7 @@ def print_plan(card: PlanCard, *, min_separation: float) -> None:
     for segment in card.segments:
         table.add_row(*_row(segment, card.length / card.time_to_converge))
     console.print(table)
+    print_levels(console, card.levels)
     keeps = card.separation.least - min_separation
     console.print(
         f"Least separation {miles(card.separation.least)} after {clock(card.separation.at)}: "
@@ -139,7 +140,6 @@ def print_no_plan(card: NoPlanCard) -> None:
     console = Console(highlight=False)
     console.print(Text("No plan", style="bold red") + f" ({card.reason.value})")
     console.print(card.message)
-    print_conflict(console, card)
 
 
 def print_optimality(check: OptimalityCheck) -> None:

@@ -6,7 +6,7 @@ from typing import Any, assert_never
 
 from relguide.planning.aircraft import Leader, Pursuer, Traffic
 from relguide.planning.cells import Cell, Disc, Polygon
-from relguide.planning.intent import ChangeLevel, FlyStraight, IntentPiece, TurnTo
+from relguide.planning.intent import ChangeLevel, FlyStraight, IntentPiece, LevelChange, TurnTo
 from relguide.planning.situation import Other, Situation
 from relguide.planning.trajectory import LEFT
 from relguide.planning.wind import CALM, Wind
@@ -28,6 +28,7 @@ def body_of(asked: Asked) -> Mapping[str, Any]:
             "tas_mps": own.tas,
             "max_bank_deg": degrees(own.max_bank),
             **_altitude(own),
+            **_levels(own.levels),
         },
         "leader": {
             "x_m": leader.x,
@@ -46,6 +47,17 @@ def body_of(asked: Asked) -> Mapping[str, Any]:
 
 def _altitude(aircraft: Pursuer | Leader | Traffic) -> dict[str, Any]:
     return {} if aircraft.altitude is None else {"altitude_m": aircraft.altitude}
+
+
+def _levels(levels: Sequence[LevelChange]) -> dict[str, Any]:
+    if not levels:
+        return {}
+    return {
+        "levels": [
+            {"at_s": level.at, "to_altitude_m": level.to_altitude, "rate_mps": level.rate}
+            for level in levels
+        ]
+    }
 
 
 def _others(others: Sequence[Other]) -> dict[str, Any]:

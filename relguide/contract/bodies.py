@@ -7,6 +7,7 @@ by the angle between its meridian and the plane's north. Wind is taken at the le
 """
 
 from collections.abc import Mapping
+from itertools import pairwise
 from math import degrees, radians
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,7 +15,7 @@ from pydantic import Discriminator, Field, Tag
 
 from relguide.contract.accepted import Accepted
 from relguide.contract.compass import compass, heading_of
-from relguide.contract.intent_bodies import Bank, Intent, intent_from_body
+from relguide.contract.intent_bodies import Bank, ClimbRate, Intent, intent_from_body
 from relguide.contract.other_bodies import CellList, Distance, Tas, TrafficList, others_from_body
 from relguide.contract.places import (
     Altitude,
@@ -37,6 +38,7 @@ from relguide.flying.plan_documents import (
 from relguide.planning import limits
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.frames import LocalPlane
+from relguide.planning.intent import LevelChange
 from relguide.planning.situation import Situation
 from relguide.planning.wind import CALM, Wind, wind_from
 
@@ -47,6 +49,20 @@ MAX_ID = 200
 """Longest accepted `id` [characters]."""
 MAX_INTEGER = 2**53 - 1
 """Largest integer that every reader of JSON keeps exact."""
+
+
+class PlannedLevel(Strict):
+    """A climb or a descent of the pursuer."""
+
+    at_s: Annotated[float, Accepted(limits.PIECE)]
+    """When it begins."""
+    to_altitude_m: Altitude
+    """Pressure altitude to level off at."""
+    rate_mps: ClimbRate
+    """How fast to climb or to descend."""
+
+
+PlannedLevels = Annotated[list[PlannedLevel], Field(max_length=limits.MAX_PIECES)]
 
 
 class LocalPursuer(Strict):
@@ -64,6 +80,8 @@ class LocalPursuer(Strict):
     """Bank of its turns."""
     altitude_m: Altitude | None = None
     """Pressure altitude; if left out it is not known, and height keeps nothing apart."""
+    levels: Annotated[PlannedLevels, Field(default_factory=list)]
+    """Changes of level that it will make, in order; if left out, the planner chooses them."""
 
 
 class GeodeticPursuer(Strict):
@@ -81,6 +99,8 @@ class GeodeticPursuer(Strict):
     """Bank of its turns."""
     altitude_m: Altitude | None = None
     """Pressure altitude; if left out it is not known, and height keeps nothing apart."""
+    levels: Annotated[PlannedLevels, Field(default_factory=list)]
+    """Changes of level that it will make, in order; if left out, the planner chooses them."""
 
 
 class LocalLeader(Strict):
@@ -261,6 +281,14 @@ def _aircraft(body: SituationBody) -> tuple[Pursuer, Leader, Anchor]:
 
 
 def _pursuer(body: LocalPursuer | GeodeticPursuer, x: float, y: float, heading: float) -> Pursuer:
+    levels = tuple(
+        LevelChange(at=level.at_s, to_altitude=level.to_altitude_m, rate=level.rate_mps)
+        for level in body.levels
+    )
+    for index, (before, level) in enumerate(pairwise(levels), start=1):
+        if level.at < before.at:
+            said = "must not be before that of the level in front of it."
+            raise ContractError([(f"pursuer.levels[{index}].at_s", said)])
     return Pursuer(
         x=x,
         y=y,
@@ -268,6 +296,7 @@ def _pursuer(body: LocalPursuer | GeodeticPursuer, x: float, y: float, heading: 
         tas=body.tas_mps,
         max_bank=radians(body.max_bank_deg),
         altitude=body.altitude_m,
+        levels=levels,
     )
 
 

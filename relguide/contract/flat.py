@@ -39,7 +39,7 @@ def _paths(name: str, *models: type[BaseModel]) -> Iterator[str]:
             yield f"{name}.{field}"
 
 
-LISTS = ("leader.intent", "traffic", "cells")
+LISTS = ("pursuer.levels", "leader.intent", "traffic", "cells")
 """Columns of a situation that hold JSON text."""
 TEXTS = ("id", *LISTS)
 """Columns of a situation that do not hold numbers."""

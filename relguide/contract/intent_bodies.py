@@ -16,6 +16,7 @@ from relguide.planning.intent import ChangeLevel, FlyStraight, IntentPiece, Spee
 from relguide.planning.trajectory import LEFT, RIGHT
 
 Bank = Annotated[float, Accepted(limits.BANK)]
+ClimbRate = Annotated[float, Accepted(limits.VERTICAL_RATE)]
 
 
 class StraightPiece(Strict):
@@ -41,7 +42,7 @@ class LevelChange(Strict):
 
     to_altitude_m: Altitude
     """Pressure altitude to level off at."""
-    rate_mps: Annotated[float, Accepted(limits.VERTICAL_RATE)]
+    rate_mps: ClimbRate
     """How fast to climb or to descend."""
     hold: SpeedRule = "cas"
     """What is kept meanwhile; `cas` goes over to Mach number, and back, where the two cross."""

@@ -3,6 +3,7 @@
 {"t_s": 60, "intent_known": false}
 {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
 {"t_s": 950, "leader_tas_mps": 100}
+{"t_s": 990, "leader_level_m": 8000, "rate_mps": 8}
 {"t_s": 950, "leader_tas_mps": 210, "ident": "BAW12"}
 """
 
@@ -11,17 +12,28 @@ from typing import IO, Annotated, NamedTuple
 
 from pydantic import Field
 
+from relguide.contract.accepted import Accepted
 from relguide.contract.compass import heading_of
 from relguide.contract.other_bodies import Tas
+from relguide.contract.places import Altitude
 from relguide.contract.refusal import ContractError, Strict, loads, parse
 from relguide.flying.leaders.declared import TurnChoice
-from relguide.flying.orders import Command, IntentKnown, LeaderHeading, LeaderSpeed, order_fault
+from relguide.flying.orders import (
+    Command,
+    IntentKnown,
+    LeaderHeading,
+    LeaderLevel,
+    LeaderSpeed,
+    order_fault,
+)
 from relguide.flying.world import World
+from relguide.planning.limits import VERTICAL_RATE
 from relguide.units import Second
 
 MAX_LINE = 10_000
 """Longest line that is read [bytes]; an order has some 70."""
 
+Rate = Annotated[float, Accepted(VERTICAL_RATE)]
 Ident = Annotated[str, Field(max_length=100)]
 OrderTime = Annotated[float, Field(ge=0.0)]
 
@@ -59,6 +71,23 @@ class SpeedOrder(Strict):
         return LeaderSpeed(tas=self.leader_tas_mps, ident=self.ident)
 
 
+class LevelOrder(Strict):
+    """The leader is to climb or descend."""
+
+    t_s: OrderTime
+    """Flight time at which it is given."""
+    leader_level_m: Altitude
+    """Pressure altitude to level off at."""
+    rate_mps: Rate = 7.62
+    """How fast; 1,500 ft/min if left out."""
+    ident: Ident = ""
+    """Who is to do so; empty for the first link's leader."""
+
+    def command(self) -> Command:
+        """What the flight is given."""
+        return LeaderLevel(altitude=self.leader_level_m, rate=self.rate_mps, ident=self.ident)
+
+
 class IntentOrder(Strict):
     """The leader's intent is given to the pursuer, or withdrawn."""
 
@@ -73,9 +102,10 @@ class IntentOrder(Strict):
         return IntentKnown(known=self.intent_known, ident=self.ident)
 
 
-_MODELS: dict[str, type[HeadingOrder] | type[SpeedOrder] | type[IntentOrder]] = {
+_MODELS: dict[str, type[HeadingOrder] | type[SpeedOrder] | type[LevelOrder] | type[IntentOrder]] = {
     "leader_heading_deg": HeadingOrder,
     "leader_tas_mps": SpeedOrder,
+    "leader_level_m": LevelOrder,
     "intent_known": IntentOrder,
 }
 """The field that only this kind of order has."""
@@ -150,7 +180,7 @@ def _order(line: bytes) -> Order:
         raise ContractError([("", "A line must be an object with fields: an order.")])
     given = [name for name in _MODELS if name in content]
     if len(given) != 1:
-        names = "leader_heading_deg, leader_tas_mps or intent_known"
+        names = "leader_heading_deg, leader_tas_mps, leader_level_m or intent_known"
         raise ContractError([("", f"An order has one of {names}, not {len(given)} of them.")])
     body = parse(_MODELS[given[0]], content)
     return Order(body.t_s, body.command())

@@ -5,7 +5,7 @@ Guidance reads this and nothing else.
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import hypot
+from math import hypot, inf
 
 import numpy as np
 
@@ -23,6 +23,17 @@ from relguide.kernels.flight.marks import straight_for
 from relguide.kernels.flight.program import roll_lead
 from relguide.planning.aircraft import Leader
 from relguide.planning.cells import Cell
+from relguide.planning.heights import (
+    ALWAYS,
+    FASTEST,
+    JOINED_HEIGHT,
+    UNKNOWN,
+    VERTICAL_MINIMUM,
+    WHOLE_METRE,
+    Heights,
+    Interval,
+    counted,
+)
 from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.wind import Wind
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
@@ -110,6 +121,43 @@ class Belief:
     """How uncertain all that is."""
     leader_age: Second = 0.0
     """How long ago the leader was last heard of; since then it is expected to fly on [s]."""
+    own_heights: Heights = UNKNOWN
+    """Its altitude, and the changes of level that guidance is to make."""
+    leader_heights: Heights = UNKNOWN
+    """The leader's, with those that it has declared, if its intent is known."""
+    leader_climb: MetrePerSecond = 0.0
+    """How fast the leader climbs now; negative if it descends [m/s]."""
+
+    @cached_property
+    def height(self) -> Metre | None:
+        """How far the leader is above [m]; `None` if that is not known."""
+        own, leader = self.own_heights.altitude, self.leader_heights.altitude
+        return None if own is None or leader is None else leader - own
+
+    @cached_property
+    def at_level(self) -> bool:
+        """Whether the pursuer is at the leader's level, as far as is known."""
+        return self.height is None or abs(self.height) <= JOINED_HEIGHT
+
+    @cached_property
+    def counts(self) -> tuple[Interval, ...]:
+        """From when until when the horizontal minimum counts, from now on [s].
+
+        A leader of unknown intent may climb or descend toward the pursuer at once.
+        """
+        if self.height is None:
+            return ALWAYS
+        if self.intent_known:
+            return counted(self.own_heights, self.leader_heights)
+        spare = abs(self.height) - VERTICAL_MINIMUM + WHOLE_METRE
+        return ALWAYS if spare <= 0.0 else ((spare / FASTEST, inf),)
+
+    @property
+    def counted_separation(self) -> Metre:
+        """Distance to the leader, infinite while 1,000 ft keep both apart [m]."""
+        counts = self.counts
+        return self.separation if counts and counts[0][0] <= 0.0 else inf
+
     others: tuple[SeenOther, ...] = ()
     """All other aircraft."""
     cells: tuple[Cell, ...] = ()
@@ -219,4 +267,7 @@ def coasting(heard: Belief, t: Second, own: Body) -> Belief:
     leader = heard.leader._replace(
         x=then.x, y=then.y, heading=heard.leader.heading + turned, bank=0.0, roll_rate=0.0
     )
-    return replace(heard, t=t, own=own, leader=leader, intent=then.intent, leader_age=age)
+    return replace(
+        heard, t=t, own=own, leader=leader, intent=then.intent, leader_age=age,
+        leader_heights=UNKNOWN, leader_climb=0.0,
+    )  # fmt: skip

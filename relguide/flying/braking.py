@@ -41,7 +41,7 @@ def learn_braking(one: Pursuit, fleet: Fleet) -> None:
     """Fit a line to the airspeed while braking is asked for, and believe what is beyond doubt."""
     limits, tas = fleet.believed_limits[one.pursuer], fleet.body(one.pursuer).tas
     asked = tas if one.advice is None else max(one.advice.control.tas, limits.min_tas)
-    if asked > tas - ASKED_LESS:
+    if asked > tas - ASKED_LESS or fleet.changes_level(one.pursuer):  # what goes down is faster
         one.braked = ()
         return
     one.braked = (*one.braked[-(SPOOLED + WINDOW) :], tas)

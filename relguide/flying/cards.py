@@ -19,6 +19,7 @@ from relguide.flying.plan_documents import (
     Direction,
     EarlyAlternativeCard,
     LaterRemedy,
+    LevelChangeCard,
     LevelRemedy,
     MissingAlternativeCard,
     NoPlanCard,
@@ -35,11 +36,13 @@ from relguide.flying.plan_documents import (
     StraightSegment,
     TurnSegment,
     UnsafeAlternativeCard,
+    VerticalCard,
 )
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.turn import bank_for_turn_radius
 from relguide.planning.arrival import Arrival
 from relguide.planning.certificate import Certificate
+from relguide.planning.heights import KeptByHeight
 from relguide.planning.plan import Conflict, NoPlan, Plan, Remedy
 from relguide.planning.trajectory import (
     LEFT,
@@ -80,6 +83,10 @@ def plan_card(
         time_to_converge=plan.time_to_converge,
         length=plan.trajectory.length,
         segments=path_segments(plan.trajectory, wind=plan.situation.wind),
+        levels=tuple(
+            LevelChangeCard(at=change.at, to_altitude=change.to_altitude, rate=change.rate)
+            for change in plan.levels
+        ),
         separation=separation_card(certificate),
         arrival=arrival_card(plan.arrival),
         optimality=OptimalityCard(proof=optimality.proof, lower_bound=optimality.lower_bound),
@@ -126,6 +133,7 @@ def separation_card(certificate: Certificate) -> Separation:
         least=certificate.least_separation,
         at=certificate.at_time,
         proved_above=certificate.lower_bound,
+        vertical=_vertical_cards(certificate.vertical),
         others=tuple(
             OtherSeparationCard(
                 ident=other.ident,
@@ -133,9 +141,17 @@ def separation_card(certificate: Certificate) -> Separation:
                 at=other.at_time,
                 proved_above=other.lower_bound,
                 min_separation=other.min_separation,
+                vertical=_vertical_cards(other.vertical),
             )
             for other in certificate.others
         ),
+    )
+
+
+def _vertical_cards(kept: Iterable[KeptByHeight]) -> tuple[VerticalCard, ...]:
+    return tuple(
+        VerticalCard(from_=part.from_time, to=part.to_time, least=part.least_height)
+        for part in kept
     )
 
 

@@ -39,7 +39,9 @@ from relguide.flying.plan_documents import (
 from relguide.planning.acceptance import Fault as Fault
 from relguide.units import Metre, Radian, Second
 
-LeaderChange = Literal["heading", "speed", "intent_received", "intent_withdrawn", "intent_broken"]
+LeaderChange = Literal[
+    "heading", "speed", "level", "intent_received", "intent_withdrawn", "intent_broken"
+]
 """What is new of a leader; intent_broken: it does not fly what it declared."""
 EndReason = Literal["joined", "time_over", "recording_over", "plane_left"]
 """Why a flight ends."""

@@ -10,6 +10,7 @@ from math import cos, hypot, inf, sin
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from relguide.flying.air import Air
 from relguide.flying.aircraft import AircraftState
@@ -25,6 +26,14 @@ from relguide.flying.leaders.declared import (
 )
 from relguide.flying.leaders.recorded import RecordedLeader, steps_of_track
 from relguide.flying.perception import CERTAIN, Perceived, Perception
+from relguide.flying.vertical import (
+    begin_change,
+    engine_rates,
+    fly_vertical,
+    kept_tas,
+    level_at,
+    level_off,
+)
 from relguide.flying.world import Aircraft, Declared, Guided, Recorded, World
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.flight.energy import idle_deceleration
@@ -38,10 +47,11 @@ from relguide.kernels.flight.second import (
     fly_second,
     least_between,
 )
-from relguide.planning.intent import IntentPiece
+from relguide.planning.heights import VERTICAL_MINIMUM, WHOLE_METRE, Heights
+from relguide.planning.intent import IntentPiece, LevelChange, SpeedRule
 from relguide.planning.limits import POSITION, TAS
 from relguide.planning.wind import Wind
-from relguide.units import DEG, NM, Metre, MetrePerSecond, Radian, Second
+from relguide.units import DEG, G0, NM, Metre, MetrePerSecond, Radian, Second
 
 LEADERS_ACCELERATION = 0.1
 """A leader speeds up by so much at the least: often it is not of the type taken for it [m/s²]."""
@@ -57,6 +67,10 @@ ROLLS_BEFORE: Second = 8.0
 """An aircraft begins to roll so long before a declared turn at the earliest [s]."""
 DECLARED_STEPS = 4
 """Of a second, in which a leader is flown on as it declared."""
+NEW_LIMITS: Metre = 60.0
+"""What an aircraft can do is computed anew once its level has changed by this [m]."""
+ASKED_LESS: MetrePerSecond = 3.0
+"""An aircraft that flies so much faster than is asked is to slow down [m/s]."""
 EDGE: Metre = 2_000.0
 """So near the edge of the plane a flight ends: before plans are refused for it [m]."""
 
@@ -100,11 +114,18 @@ class Fleet:
         self.trace = np.zeros((count, steps + 1, 7))
         self.tallies = np.zeros((count, 4))
         self.altitudes = np.zeros((count, steps + 1))
+        self.verticals = [level_at(aircraft.altitude) for aircraft in world.aircraft]
+        self.limits_for = [aircraft.altitude for aircraft in world.aircraft]
+        """The levels that limits were computed for [m]."""
+        self.paid = [0.0] * count
+        """What a climb takes off the acceleration of each, and a descent adds [m/s²]."""
         self.believed_air = world.believed_air or world.air
         self.believed_limits = [
             limits_of(aircraft, aircraft.known_airframe, self.believed_air)
             for aircraft in world.aircraft
         ]
+        self.level_limits: list[Limits] = []
+        """What each can do in level flight."""
         self.declared: list[Program] = []
         self.recordings: dict[int, RecordedLeader] = {}
         self.winds = np.zeros((count, steps + 1, 2))
@@ -115,6 +136,7 @@ class Fleet:
             self.winds[i] = wind.east, wind.north
             can = limits_of(aircraft, aircraft.airframe, world.air)
             self.limits[i] = can
+            self.level_limits.append(can)
             heading = wrap(aircraft.heading)
             self.states[i] = aircraft.x, aircraft.y, heading, 0.0, 0.0, aircraft.tas, 0.0
             self.controls[i] = 0.0, heading, aircraft.tas
@@ -132,6 +154,7 @@ class Fleet:
                     self.recordings[i] = recording = steps_of_track(track, wind, step)
                     self.states[i] = recording.rows[0]
                     self.altitudes[i] = recording.altitude[0]
+                    self.verticals[i] = level_at(float(recording.altitude[0]))
 
     def set_program(self, i: int, program: Program) -> None:
         """Have an aircraft fly something else from now on."""
@@ -151,10 +174,19 @@ class Fleet:
         self.leave_recording(i)
         self.controls[i, 2] = tas
 
+    def change_level(
+        self, i: int, to: Metre, rate: MetrePerSecond, hold: SpeedRule = "tas"
+    ) -> None:
+        """Have an aircraft climb or descend to a level [m], at most so fast [m/s]."""
+        self.leave_recording(i)
+        tas = float(self.states[i, 5])
+        self.verticals[i] = begin_change(self.verticals[i], to, rate, hold, tas, self.world.air)
+
     def leave_recording(self, i: int) -> None:
         """A recorded aircraft flies on under its own autopilot, as it flies now."""
         if i in self.recordings:
             self.controls[i, 2] = self.states[i, 5]
+            self.verticals[i] = level_off(self.verticals[i])
             heading = float(self.states[i, 2])
             self.set_program(i, program_of((), heading, 0.0, float(self.states[i, 5])))
 
@@ -166,15 +198,87 @@ class Fleet:
     def fly_second(self, t: Second) -> None:
         """All aircraft, one second on; `trace` then holds each step of it."""
         first = round(t / self.step)
+        self._climb(t)
         for i, recording in self.recordings.items():
             steps = np.minimum(np.arange(first, first + self.steps + 1), len(recording.rows) - 1)
             self.trace[i] = recording.rows[steps]
-            self.altitudes[i] = recording.altitude[steps]
+            self.altitudes[i] = levels = recording.altitude[steps]
+            now = level_at(float(levels[-1]))
+            self.verticals[i] = now._replace(speed=float(levels[-1] - levels[0]))
         self._blow(t)
         fly_second(
             self.states, self.limits, self.pilots, self.controls, self.programs, self.lengths,
             self.cursors, self.helds, self.winds, t, self.step, self.trace, self.tallies,
         )  # fmt: skip
+
+    def _climb(self, t: Second) -> None:
+        """The altitudes of the second from t on, where they change, and the speeds that go with it.
+
+        A guided aircraft pays for a climb with thrust, and gains by a descent: V̇ less g ḣ/V.
+        """
+        for i in np.flatnonzero(self.pilots != RECORDED).tolist():
+            if self.pilots[i] == PROGRAMMED:
+                for at, change in self.declared[i].levels:
+                    if t - 1.0 < at <= t or (t == 0.0 and at <= 0.0):
+                        self.change_level(i, change.to_altitude, change.rate, change.hold)
+            now, aircraft = self.verticals[i], self.world.aircraft[i]
+            if now.is_level and self.altitudes[i, 0] == now.altitude == self.altitudes[i, -1]:
+                continue
+            air, guided = self.world.air, isinstance(aircraft.pilot, Guided)
+            if guided and abs(now.altitude - self.limits_for[i]) > NEW_LIMITS:
+                self._limit(i, now.altitude)
+            limits, tas = self.level_limits[i], float(self.states[i, 5])
+            climb, descent = aircraft.airframe.max_climb, aircraft.airframe.max_descent
+            if guided:
+                slowing = bool(self.controls[i, 2] < tas - ASKED_LESS)
+                climb, descent = engine_rates(limits, aircraft.airframe, tas, slowing=slowing)
+            now, altitudes = fly_vertical(now, climb, descent, self.steps, self.step)
+            self.verticals[i], self.altitudes[i] = now, altitudes
+            if self.pilots[i] == PROGRAMMED and not now.is_level and now.hold != "tas":
+                self.controls[i, 2] = kept_tas(now, aircraft.airframe, air)
+            if guided:
+                self.paid[i] = paid = float(G0 * (altitudes[-1] - altitudes[0]) / tas)
+                self.limits[i] = limits._replace(
+                    climb_0=limits.climb_0 - paid, idle_0=limits.idle_0 - paid
+                )
+
+    def _limit(self, i: int, altitude: Metre) -> None:
+        """What a guided aircraft can do at another level, in truth and as it is believed."""
+        here = replace(self.world.aircraft[i], altitude=altitude)
+        self.limits_for[i] = altitude
+        self.level_limits[i] = limits_of(here, here.airframe, self.world.air)
+        braking = self.believed_limits[i].braking
+        believed = limits_of(here, here.known_airframe, self.believed_air)
+        self.believed_limits[i] = believed._replace(braking=braking)
+
+    def believed(self, i: int) -> Limits:
+        """What an aircraft believes that it can do: in a descent it slows down less."""
+        limits = self.believed_limits[i]
+        if self.paid[i] >= 0.0:
+            return limits
+        return limits._replace(idle_0=limits.idle_0 - self.paid[i])
+
+    def changes_level(self, i: int) -> bool:
+        """Whether an aircraft climbs or descends now."""
+        return self.verticals[i].speed != 0.0
+
+    def heights(self, i: int, t: Second, declared: Program | None = None) -> Heights:
+        """The altitude of an aircraft, and its changes of level from now on.
+
+        Args:
+            i: which.
+            t: flight time [s].
+            declared: what it declared, if that is known: its changes to come are in it.
+        """
+        now = self.verticals[i]
+        changes = []
+        if not now.is_level and self.pilots[i] != RECORDED:
+            changes.append(LevelChange(at=0.0, to_altitude=now.to, rate=now.rate))
+        for at, change in () if declared is None else declared.levels:
+            if at > t - 1.0 and not (changes and changes[0].to_altitude == change.to_altitude):
+                to, rate = change.to_altitude, change.rate
+                changes.append(LevelChange(at=max(at - t, 0.0), to_altitude=to, rate=rate))
+        return Heights(altitude=now.altitude, changes=tuple(changes))
 
     def _wind_at(self, i: int, altitude: Metre, t: Second = 0.0) -> Wind:
         """The wind where an aircraft is, without gusts."""
@@ -234,9 +338,26 @@ class Fleet:
         one, other = self.states[i], self.states[j]
         return hypot(one[0] - other[0], one[1] - other[1])
 
+    def counted_apart(self, i: int, j: int) -> Metre:
+        """The same; infinite if 1,000 ft keep both apart [m]."""
+        return inf if bool(self.by_height(i, j)[-1]) else self.apart(i, j)
+
+    def by_height(self, i: int, j: int) -> NDArray[np.bool_]:
+        """Whether 1,000 ft kept two aircraft apart, at each step of the last second."""
+        apart = np.abs(self.altitudes[i] - self.altitudes[j])
+        kept: NDArray[np.bool_] = apart >= VERTICAL_MINIMUM - WHOLE_METRE
+        return kept
+
     def least_apart(self, i: int, j: int) -> Metre:
-        """How near two aircraft came in the last second [m]."""
-        return least_between(self.trace[i], self.trace[j])[0]
+        """How near two aircraft came in the last second, where height did not keep them apart [m].
+
+        Infinite if it did all the while.
+        """
+        kept = self.by_height(i, j)
+        if not kept.any():
+            return least_between(self.trace[i], self.trace[j])[0]
+        apart = np.hypot(*(self.trace[i, ~kept, :2] - self.trace[j, ~kept, :2]).T)
+        return float(np.min(apart, initial=inf))
 
     def beyond_edge(self) -> str:
         """The ident of an aircraft about to leave the plane; empty if there is none."""
@@ -286,7 +407,7 @@ class Fleet:
         return Belief(
             t=t,
             own=own,
-            limits=self.believed_limits[i],
+            limits=self.believed(i),
             leader=leader,
             leader_limits=self.believed_limits[j],
             intent=intent,

@@ -22,6 +22,7 @@ from relguide.flying.orders import Command
 from relguide.flying.orders import IntentKnown as IntentKnown
 from relguide.flying.orders import LeaderData as LeaderData
 from relguide.flying.orders import LeaderHeading as LeaderHeading
+from relguide.flying.orders import LeaderLevel as LeaderLevel
 from relguide.flying.orders import LeaderSpeed as LeaderSpeed
 from relguide.flying.orders import PursuerHeading as PursuerHeading
 from relguide.flying.orders import SetEngagement as SetEngagement
@@ -88,7 +89,7 @@ class Scenario:
     leader_type: str = DEFAULT_TYPE
     """Of a leader that is not recorded; of another only its designator is shown."""
     altitude: Metre = 9449.0
-    """Of both [m]; FL310."""
+    """Of both, where the situation does not say [m]; FL310."""
     isa_deviation: float = 0.0
     """Temperature above the standard atmosphere's [K]."""
     profile: WindProfile | None = None
@@ -138,7 +139,7 @@ class Scenario:
         airframe(self.pursuer_type).expect_weight("pursuer_weight", self.pursuer_weight)
         fault = envelope_fault(
             airframe(self.pursuer_type),
-            self.altitude,
+            self.altitude if pursuer.altitude is None else pursuer.altitude,
             self.air,
             tas=pursuer.tas,
             bank=pursuer.max_bank,
@@ -287,7 +288,7 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
                 y=pursuer.y,
                 heading=pursuer.heading,
                 tas=pursuer.tas,
-                altitude=scenario.altitude,
+                altitude=scenario.altitude if pursuer.altitude is None else pursuer.altitude,
                 weight=scenario.pursuer_weight,
                 max_bank=pursuer.max_bank,
                 pilot=Guided(),
@@ -300,7 +301,7 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
                 y=leader.y,
                 heading=leader.heading,
                 tas=leader.tas,
-                altitude=scenario.altitude,
+                altitude=scenario.altitude if leader.altitude is None else leader.altitude,
                 max_bank=max(LEADER_BANK, *banks, 0.0),
                 pilot=pilot,
             ),

@@ -9,7 +9,13 @@ from relguide.flying.belief import Belief
 from relguide.flying.documents import LeaderChanged, LeaderRoute
 from relguide.flying.fleet import Fleet
 from relguide.flying.logbook import leader_route
-from relguide.flying.orders import IntentKnown, LeaderCommand, LeaderHeading, LeaderSpeed
+from relguide.flying.orders import (
+    IntentKnown,
+    LeaderCommand,
+    LeaderHeading,
+    LeaderLevel,
+    LeaderSpeed,
+)
 from relguide.flying.pursuit import Pursuit
 from relguide.kernels.base.angles import wrap_signed
 from relguide.units import DEG, KT, MetrePerSecond, Radian, RadianPerSecond, Second
@@ -33,6 +39,8 @@ def note_command(one: Pursuit, command: LeaderCommand, t: Second) -> None:
             one.view = one.view._replace(turn_ordered=True)
         case LeaderSpeed():
             said = "The leader was ordered to another speed."
+        case LeaderLevel():
+            said = "The leader was ordered to another level."
         case IntentKnown():
             return
     one.view = one.view._replace(rerouted=True, changed=said, changed_at=t)

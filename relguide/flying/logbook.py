@@ -64,12 +64,15 @@ from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
 from relguide.planning.aircraft import Leader
 from relguide.planning.alternatives import alternatives
 from relguide.planning.cells import Cell, Disc, Polygon
+from relguide.planning.heights import VERTICAL_MINIMUM, WHOLE_METRE
 from relguide.planning.plan import Plan
 from relguide.planning.wind import Wind
 from relguide.units import Metre, Second
 
 FINAL_LEG: Second = 1200.0
 """How much of the leader's endless final leg is shown [s]: as much as a pursuer needs at 100 km."""
+KEPT = VERTICAL_MINIMUM - WHOLE_METRE
+"""So far apart in height, the distance does not count [m]."""
 GHOSTS = 3
 """So many other paths are drawn beside a proposal."""
 
@@ -130,6 +133,7 @@ def _guidance_sample(
     slot_x, slot_y = slot.x + slot_east * since, slot.y + slot_north * since
     slot_speed = hypot(slot_east, slot_north)
     dx, dy = own.x - slot_x, own.y - slot_y
+    by_height = abs(other.altitude - own.altitude) >= KEPT
     return GuidanceSample(
         ident=names.pursuer,
         leader=names.leader,
@@ -138,7 +142,7 @@ def _guidance_sample(
         commanded_tas=advice.control.tas,
         separation=separation,
         closure=closure,
-        least_separation=min(least, separation),
+        least_separation=least if by_height else min(least, separation),
         slot=PathPoint(t=t, x=slot_x, y=slot_y, heading=wrap(slot.heading + 2.0 * half_turn)),
         slot_open=advice.slot_open,
         spacing_error=-(dx * slot_east + dy * slot_north) / slot_speed,
@@ -194,7 +198,7 @@ def event_document(t: Second, names: PairNames, event: Event) -> Document:
     match event:
         case NewPlan(shown=plan, committed=committed):
             ahead, (leader_at, own_at) = committed.forecast, _closest_points(plan)
-            least, _ = ahead.least(t)
+            least = ahead.nearest(t)
             others = alternatives(committed.plan) if event.announced else ()
             return PlanChanged(
                 t=t,
@@ -211,7 +215,7 @@ def event_document(t: Second, names: PairNames, event: Event) -> Document:
             )
         case ProposedPlan(shown=plan, committed=committed):
             ahead, (leader_at, own_at) = committed.forecast, _closest_points(plan)
-            least, _ = ahead.least(t)
+            least = ahead.nearest(t)
             others, later = alternatives(committed.plan), committed.begins - t
             wind = plan.situation.wind
             return PlanProposed(

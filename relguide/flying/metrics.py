@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 
@@ -113,10 +114,10 @@ def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
     said = list[SeparationLost]()
     limit = one.link.min_separation
     if least >= limit:
-        one.lost = one.lost and fleet.apart(one.pursuer, one.ahead) < limit
+        one.lost = one.lost and fleet.counted_apart(one.pursuer, one.ahead) < limit
     else:
         if not one.lost:
-            apart = np.hypot(*(fleet.trace[one.pursuer, :, :2] - fleet.trace[one.ahead, :, :2]).T)
+            apart = _apart(fleet, one.pursuer, one.ahead)
             said.append(_loss(one, fleet, t, one.names.leader, apart, limit, _cause(one, t)))
             one.metrics = count_event(one.metrics, said[0], one.names.leader)
         one.metrics = count_loss(one.metrics, least)
@@ -204,6 +205,15 @@ def _announced(metrics: FlightMetrics, other: str, leader: str) -> tuple[Second,
         alerted = tuple(t for ident, t in metrics.others_alerted if ident == other)
     said = (*alerted, *metrics.unable)
     return (min(said),) if said else ()
+
+
+def _apart(fleet: Fleet, i: int, j: int) -> FloatArray:
+    """How far two aircraft were apart at each step of the last second [m].
+
+    Infinite where 1,000 ft kept them apart.
+    """
+    apart = np.hypot(*(fleet.trace[i, :, :2] - fleet.trace[j, :, :2]).T)
+    return np.where(fleet.by_height(i, j), inf, apart)
 
 
 def _cause(one: Pursuit, t: Second) -> str:

@@ -5,14 +5,15 @@ from dataclasses import dataclass
 from typing import Literal, assert_never, get_args
 
 from relguide.flying.documents import Engagement, LeaderChanged
+from relguide.flying.envelope import flight_level
 from relguide.flying.fleet import Fleet
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.kernels.base.angles import wrap
 from relguide.planning.inputs import expect_within, text, truth
-from relguide.planning.limits import HEADING, TAS
+from relguide.planning.limits import ALTITUDE, HEADING, TAS, VERTICAL_RATE
 from relguide.planning.phrases import compass
 from relguide.planning.reprs import as_code
-from relguide.units import DEG, KT, MetrePerSecond, Radian, Second
+from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, Second
 
 ORDERED_BANK: Radian = 25.0 * DEG
 """Of the turns that a leader makes when ordered to [rad]."""
@@ -51,6 +52,27 @@ class LeaderSpeed:
     def __post_init__(self) -> None:
         """Refuse a speed outside the accepted range."""
         object.__setattr__(self, "tas", expect_within("tas", self.tas, *TAS))
+        text("ident", self.ident)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LeaderLevel:
+    """An aircraft is to climb or descend to a level. A recorded one leaves its recording."""
+
+    altitude: Metre
+    """Pressure altitude [m]."""
+    rate: MetrePerSecond = 7.62
+    """How fast [m/s], > 0; 1,500 ft/min."""
+    ident: str = ""
+    """Of the aircraft that is to do so; empty for the first link's leader."""
+    kind: Literal["leader_level"] = "leader_level"
+    __repr__ = as_code
+
+    def __post_init__(self) -> None:
+        """Refuse a level or a rate outside the accepted range."""
+        for name, accepted in (("altitude", ALTITUDE), ("rate", VERTICAL_RATE)):
+            value = expect_within(name, getattr(self, name), *accepted)
+            object.__setattr__(self, name, value)
         text("ident", self.ident)
 
 
@@ -134,7 +156,7 @@ def _settle_heading(order: LeaderHeading | PursuerHeading) -> None:
     object.__setattr__(order, "heading", expect_within("heading", order.heading, *HEADING))
 
 
-LeaderCommand = LeaderHeading | LeaderSpeed | IntentKnown
+LeaderCommand = LeaderHeading | LeaderSpeed | LeaderLevel | IntentKnown
 """What a leader does, or any other aircraft that is not guided."""
 CrewCommand = LeaderData | PursuerHeading | SetEngagement
 """What a pursuer's crew does, and what it receives."""
@@ -160,7 +182,7 @@ def order_fault(
     if ident and ident not in aircraft:
         return f"There is no aircraft {ident!r} to order: there are {', '.join(aircraft)}."
     match command:
-        case LeaderHeading() | LeaderSpeed():
+        case LeaderHeading() | LeaderSpeed() | LeaderLevel():
             ordered = ident or next((leader for _, leader in links), "")
             if ordered in pursuers:
                 return (
@@ -202,6 +224,12 @@ def obey(
             fleet.set_speed(i, tas)
             message = f"{who} is instructed to fly {tas / KT:.0f} kt."
             return known, (LeaderChanged(t=t, ident=ident, change="speed", message=message),)
+        case LeaderLevel(altitude=altitude, rate=rate):
+            below = altitude < fleet.verticals[i].altitude
+            fleet.change_level(i, altitude, rate, "cas")
+            way, level = "descend" if below else "climb", flight_level(altitude)
+            message = f"{who} is instructed to {way} to {level}."
+            return known, (LeaderChanged(t=t, ident=ident, change="level", message=message),)
         case IntentKnown(known=now) if now == known:
             return known, ()
         case IntentKnown(known=True):

@@ -257,6 +257,18 @@ class OtherPathCard:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LevelChangeCard:
+    """A climb or a descent that the pursuer makes on its way."""
+
+    at: Second
+    """When it begins."""
+    to_altitude: Metre
+    """Pressure altitude to level off at."""
+    rate: MetrePerSecond
+    """How fast."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PlanCard:
     """A plan as outsiders read it: the answer of REST, of the command line, and of the display."""
 
@@ -270,6 +282,8 @@ class PlanCard:
     """Path length in the air mass [m]."""
     segments: tuple[PathSegment, ...]
     """In the order they are flown."""
+    levels: tuple[LevelChangeCard, ...] = field(default=(), metadata=LEFT_OUT)
+    """Changes of level on the way. Left out if there is none."""
     separation: Separation
     """From the leader, along the path."""
     arrival: ArrivalCard

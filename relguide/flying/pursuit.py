@@ -20,6 +20,8 @@ from relguide.flying.seen_others import SeenOther
 from relguide.flying.world import Link, World
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.flight_records import Body, Drift, move_to
+from relguide.planning.heights import Heights
+from relguide.planning.levels import levels_with
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
 AS_DECLARED: Metre = 150.0
@@ -29,6 +31,10 @@ PLACED_BY_REPORTS = 0.1
 exactly, and a turn takes a minute."""
 TURNED_AS_DECLARED: Radian = 15.0 * DEG
 """… and so far behind its heading [rad]."""
+SPEED_IN_HAND = 0.98
+"""Share of the fastest that can be flown at a level, which plans are flown at there."""
+LEAST_DECELERATION = 0.1
+"""What is counted on in a descent, with brakes [m/s²]."""
 MARGIN_STEP: Metre = 25.0
 """A margin that changes by less stays [m]."""
 
@@ -117,6 +123,8 @@ class Pursuit:
     """What the data of the pursuer's type give [m/s²]."""
     advice: Advice | None = None
     shown_forecast: Forecast | None = None
+    fits: tuple[Metre, float] = (0.0, 0.0)
+    """For which level [m], and in which descent [m/s²], the assignment is."""
     lost: bool = False
     """Whether the separation is below d_min."""
     seen_others: tuple[SeenOther, ...] = ()
@@ -153,6 +161,23 @@ class Pursuit:
         """What the pursuer knows now."""
         if self.heard is not None:
             return coasting(self.heard, t, fleet.body(self.pursuer))
+        return self._with_heights(self._seen(fleet, t), fleet, t)
+
+    def _with_heights(self, seen: Belief, fleet: Fleet, t: Second) -> Belief:
+        """The same with both altitudes, and with the changes of level that both will make."""
+        declared = fleet.declared_by(self.leader, self.declared) if seen.intent_known else None
+        leader = fleet.heights(self.leader, t, None if declared is None else declared.program)
+        own = fleet.heights(self.pursuer, t)
+        if leader == own:
+            return replace(seen, own_heights=own, leader_heights=leader)
+        if declared is None:
+            leader = Heights(altitude=leader.altitude)
+        if self.memory.engagement == "engaged":
+            own = Heights(altitude=own.altitude, changes=levels_with(leader))
+        climb = fleet.verticals[self.leader].speed
+        return replace(seen, own_heights=own, leader_heights=leader, leader_climb=climb)
+
+    def _seen(self, fleet: Fleet, t: Second) -> Belief:
         seen = self.seen
         if self.perception is not None and (seen is None or t > self.seen_at):
             seen = self._see(fleet, self.perception, t)
@@ -195,6 +220,20 @@ def keep_margin(one: Pursuit, belief: Belief) -> None:
     margin = belief.spread.margin
     if abs(margin - one.assignment.margin) > MARGIN_STEP:
         one.assignment = replace(one.assignment, margin=margin)
+
+
+def fit_to_level(one: Pursuit, fleet: Fleet) -> None:
+    """Ask for what can be flown at the present level: not so fast, or slower than before."""
+    limits = fleet.believed(one.pursuer)
+    fits = fleet.limits_for[one.pursuer], min(round(fleet.paid[one.pursuer], 1), 0.0)
+    if fits == one.fits:
+        return
+    asked, tas = one.assignment, fleet.world.aircraft[one.pursuer].tas
+    tas = max(min(tas, SPEED_IN_HAND * limits.max_tas), limits.min_tas)
+    idle = max(dependable_deceleration(limits, tas), LEAST_DECELERATION)
+    one.fits = fits
+    one.idle_deceleration = idle
+    one.assignment = replace(asked, tas=tas, min_tas=limits.min_tas, idle_deceleration=idle)
 
 
 def begin_pursuit(
@@ -244,6 +283,7 @@ def begin_pursuit(
         memory=begin(belief, engagement),
         metrics=FlightMetrics(fleet.apart(i, world.index(link.leader))),
         idle_deceleration=assignment.idle_deceleration,
+        fits=(world.aircraft[i].altitude, 0.0),
     )
 
 

@@ -28,6 +28,7 @@ from relguide.flying.documents import (
 from relguide.flying.fans import Wants, follow_fan, no_fans
 from relguide.flying.fleet import Fleet
 from relguide.flying.guidance.choice import Guide, guide_by
+from relguide.flying.guidance.level import follow_level
 from relguide.flying.guidances import Guidance, expect_guidance
 from relguide.flying.leader_watch import (
     doubt_leader,
@@ -46,7 +47,7 @@ from relguide.flying.orders import (
     obey,
     order_fault,
 )
-from relguide.flying.pursuit import Pursuit, begin_pursuit, keep_margin
+from relguide.flying.pursuit import Pursuit, begin_pursuit, fit_to_level, keep_margin
 from relguide.flying.sky import Sky
 from relguide.flying.world import World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
@@ -265,6 +266,7 @@ def _guide(
     yield from watch_leader(one, belief)
     yield from watch_ahead(one, belief)
     keep_margin(one, belief)
+    fit_to_level(one, fleet)
     one.memory, advice = guide(one.memory, belief, one.assignment)
     advice = mind_ahead(one, pursuits, belief, advice)
     for event in advice.events:
@@ -279,6 +281,9 @@ def _guide(
     one.advice = advice
     yield from fan(one, belief)
     fleet.control(one.pursuer, advice.control)
+    level = follow_level(one.memory, belief, one.assignment)
+    if level is not None:
+        fleet.change_level(one.pursuer, level.to, level.rate)
 
 
 def _end(

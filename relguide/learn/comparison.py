@@ -33,6 +33,7 @@ from relguide.planning.acceptance import find_fault
 from relguide.planning.candidate import Candidate, assemble
 from relguide.planning.certificate import certify, lost_to
 from relguide.planning.inputs import expect
+from relguide.planning.levels import is_at_level
 from relguide.planning.phrases import distance, duration, too_close, too_close_to
 from relguide.planning.plan import AS_FAST, NoPlan, Plan, plan
 from relguide.planning.situation import Situation
@@ -151,6 +152,8 @@ def _judge(
     faults = list[str]()
     if (fault := find_fault(trajectory, situation)) is not None:
         faults.append(fault[1])
+    if not is_at_level(situation, candidate.time_to_converge):
+        faults.append("it ends at another level than the leader's")
     if not certificate.holds:
         lost = lost_to(certificate)
         close = f"{too_close(certificate.least_separation, situation.min_separation)} of the leader"

@@ -31,6 +31,7 @@ from relguide.planning.candidate import SIGN_ROWS, Candidate, candidate_of, segm
 from relguide.planning.certificate import Certificate, judge
 from relguide.planning.deadline import LOADING, end_of, left_until
 from relguide.planning.inputs import expect
+from relguide.planning.levels import chooses_level
 from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner, plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
@@ -117,8 +118,10 @@ def propose(
 
     Behind a leader who keeps straight that is the fastest extremal, and where it breaks the limit
     the constrained path of the template network, if there is one. Of a leader who turns, and in a
-    cross wind, only the certificate knows whether the limit binds.
+    cross wind, only the certificate knows whether the limit binds. Levels are the exact planner's.
     """
+    if chooses_level(situation):
+        return None
     radius = situation.pursuer.turn_radius
     if situation.leader.intent:
         return _propose_behind_turns(network, situation, radius)

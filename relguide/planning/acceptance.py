@@ -23,6 +23,7 @@ from relguide.planning.arrival import (
 )
 from relguide.planning.certificate import Certificate, certify, lost_to
 from relguide.planning.deadline import end_of, left_until
+from relguide.planning.levels import is_at_level
 from relguide.planning.phrases import distance, duration, too_close, too_close_to
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
@@ -33,10 +34,10 @@ from relguide.units import DEG, Second
 STEEPER = 1e-3
 """By so much of itself a turn's curvature may exceed the tightest: 0.02° of bank at 25°."""
 
-Fault = Literal["no_answer", "start", "bank", "slot", "heading", "too_early", "separation"]
+Fault = Literal["no_answer", "start", "bank", "slot", "heading", "too_early", "level", "separation"]
 """What is wrong with a planner's answer: it is neither a plan nor says why there is none; it does
 not begin where the pursuer is; it turns too steeply; it ends beside the slot, on another heading,
-or before the slot opens; it does not keep d_min."""
+before the slot opens, or at another level; it does not keep d_min."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,13 +111,16 @@ def judge_answer(answer: object, situation: Situation, until: float = inf) -> Fl
         case NoPlan():
             return FlyableAnswer(answer, fell_back=False, refusal=None)
         case Plan():
-            certificate = certify(answer.trajectory, situation)
+            asked = _with_levels(situation, answer)
+            certificate = certify(answer.trajectory, asked)
             found = find_fault(answer.trajectory, situation)
+            if found is None and not is_at_level(asked, answer.time_to_converge):
+                found = "level", "it ends at another level than the leader's"
             if found is None and not certificate.holds:
                 found = "separation", f"it comes {_how_near(certificate, situation)}"
             if found is None:
-                if answer.certificate != certificate or answer.situation is not situation:
-                    answer = replace(answer, situation=situation, certificate=certificate)
+                if answer.certificate != certificate or answer.situation is not asked:
+                    answer = replace(answer, situation=asked, certificate=certificate)
                 return FlyableAnswer(answer, fell_back=answer.fell_back, refusal=None)
             fault, why = found
             message = f"The plan of {answer.planner} is not flown: {why}."
@@ -129,6 +133,13 @@ def judge_answer(answer: object, situation: Situation, until: float = inf) -> Fl
     if isinstance(instead, Plan):
         instead = replace(instead, fell_back=True)
     return FlyableAnswer(instead, fell_back=True, refusal=refusal)
+
+
+def _with_levels(situation: Situation, answer: Plan) -> Situation:
+    """What was asked about, with the changes of level that were planned."""
+    if answer.levels == situation.pursuer.levels:
+        return situation
+    return replace(situation, pursuer=replace(situation.pursuer, levels=answer.levels))
 
 
 def _how_near(certificate: Certificate, situation: Situation) -> str:

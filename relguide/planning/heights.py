@@ -34,6 +34,8 @@ ALTIMETRY: Metre = 200.0 * FT
 
 JOINED_HEIGHT: Metre = 300.0 * FT
 """A pursuer so near the level of its leader has joined it [m]."""
+FASTEST: MetrePerSecond = 6_000.0 * FT / 60.0
+"""No two aircraft come nearer in height than this [m/s]."""
 
 Interval = tuple[Second, Second]
 """From when until when [s]; the end may be infinite."""
@@ -99,6 +101,10 @@ class Heights:
             return -inf, inf
         knots = _knots(self)
         return next(knot for knot in reversed(knots) if knot.at <= max(t, 0.0)).until(t)
+
+
+UNKNOWN = Heights(altitude=None)
+"""Of an aircraft whose level is not known."""
 
 
 class KeptByHeight(NamedTuple):

@@ -11,6 +11,7 @@ from relguide.planning.heights import (
     JOINED_HEIGHT,
     START_TOLERANCE,
     VERTICAL_MINIMUM,
+    Heights,
     heights_of,
 )
 from relguide.planning.intent import LevelChange
@@ -33,12 +34,15 @@ def chooses_level(situation: Situation) -> bool:
 
 def with_leader(situation: Situation) -> Situation:
     """To the leader's level at once, and then as the leader does."""
-    leader = heights_of(situation.leader)
-    assert leader.altitude is not None
-    levels = list(leader.changes)
-    if not levels or levels[0].at > 0.0:
-        levels.insert(0, LevelChange(at=0.0, to_altitude=leader.altitude, rate=LEVEL_RATE))
-    return _flying(situation, tuple(levels))
+    return _flying(situation, levels_with(heights_of(situation.leader)))
+
+
+def levels_with(leader: Heights) -> tuple[LevelChange, ...]:
+    """The changes of level that `with_leader` makes."""
+    if leader.altitude is None or (leader.changes and leader.changes[0].at == 0.0):
+        return leader.changes
+    at_once = LevelChange(at=0.0, to_altitude=leader.altitude, rate=LEVEL_RATE)
+    return (at_once, *leader.changes)
 
 
 def meanwhile(situation: Situation) -> tuple[Metre, ...]:

@@ -7,9 +7,11 @@ import numpy as np
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.others import Others, forbidden_arrivals
+from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.aircraft import Traffic
 from relguide.planning.cells import Cell
 from relguide.planning.certificate import AROUND_CELLS, FOLLOWED, cell_shape
+from relguide.planning.heights import Heights, counted, heights_of
 from relguide.planning.situation import Other, Situation
 from relguide.planning.slot import SlotFrame
 from relguide.planning.tables import leader_table, pieces_table
@@ -17,6 +19,7 @@ from relguide.planning.words import HORIZON
 
 _PROVED = 1.1
 """Cells are kept this many times farther off than their certificate may miss."""
+_ROUNDING = 2.0 * SLACK  # the start may be so much nearer than the minimum [R]
 
 
 class _Shape(NamedTuple):
@@ -51,15 +54,17 @@ def others_of(situation: Situation, frame: SlotFrame, *, until: float = inf) -> 
     corners = [shape.corners for shape in shapes]
     all_pieces = [shape.pieces for shape in shapes]
     limits = [(shape.speed, _eased(shape, frame), shape.growth, shape.reach) for shape in shapes]
-    counted = [np.array([(0.0, inf)]) for _ in shapes]
+    own, leading = heights_of(situation.pursuer), heights_of(situation.leader)
+    whole = [leading, *map(_heights_of, situation.others)]
+    times = [np.array(counted(own, one)).reshape(-1, 2) / scale for one in whole]
     others = Others(
         pieces=np.concatenate(all_pieces),
         first=_firsts(all_pieces),
         limits=np.array(limits),
         corners=np.concatenate(corners),
         corner=_firsts(corners),
-        counted=np.concatenate(counted),
-        window=_firsts(counted),
+        counted=np.concatenate(times),
+        window=_firsts(times),
         forbidden=np.empty((0, 2)),
         alpha=frame.alpha,
         t_release=frame.t_release,
@@ -78,7 +83,13 @@ def _eased(shape: _Shape, frame: SlotFrame) -> float:
     if len(shape.corners):
         return shape.limit
     _, x, y, *_ = shape.pieces[0].tolist()
-    return min(shape.limit, hypot(frame.x - x, frame.y - y))
+    kept = hypot(frame.x - x, frame.y - y)
+    return kept if shape.limit - _ROUNDING < kept < shape.limit else shape.limit
+
+
+def _heights_of(other: Other) -> Heights:
+    """Its heights; a cell is at all levels."""
+    return heights_of(other) if isinstance(other, Traffic) else Heights(altitude=None)
 
 
 def _shape(other: Other, situation: Situation, frame: SlotFrame) -> _Shape:

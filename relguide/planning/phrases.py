@@ -51,9 +51,5 @@ def comes_too_close(ident: str, least: Metre, limit: Metre, time: Second) -> str
         limit: what is to be kept, 0 for a cell [m].
         time: when it is nearest [s].
     """
-    if limit > 0.0:
-        near = f"comes {too_close(least, limit)} of {ident}"
-        if distance(least) == distance(limit):
-            near = f"comes {limit - least:.1f} m too close to {ident}"
-        return f"{near} at {time:.0f} s, and {distance(limit)} is to be kept"
-    return f"is {distance(max(-least, 0.0))} inside {ident} at {time:.0f} s"
+    near = f"comes {too_close_to(ident, least, limit)} at {time:.0f} s"
+    return f"{near}, and {distance(limit)} is to be kept" if limit > 0.0 else near

@@ -13,10 +13,18 @@ from numpy.typing import ArrayLike
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import SLACK
+from relguide.planning.amid import (
+    MOST_TRIED,
+    around,
+    just_as_it_opens,
+    load_kernels,
+    lost_already,
+    nearest_miss,
+)
 from relguide.planning.arrival import Arrival, arrival
 from relguide.planning.at_release import first_at_release
 from relguide.planning.candidate import Candidate
-from relguide.planning.certificate import Certificate, certify, judge
+from relguide.planning.certificate import Certificate, OtherSeparation, certify, judge
 from relguide.planning.constrained_path import constrained_path
 from relguide.planning.deadline import TO_LOOK_ROUND, TO_PUT_DOWN, end_of
 from relguide.planning.heights import ALWAYS, counted, heights_of
@@ -35,7 +43,8 @@ from relguide.planning.levels import (
     meanwhile,
     with_leader,
 )
-from relguide.planning.phrases import distance
+from relguide.planning.limits import DISTANCE
+from relguide.planning.phrases import comes_too_close, distance
 from relguide.planning.sampling import Samples
 from relguide.planning.situation import Situation
 from relguide.planning.straight_ahead import first_candidate
@@ -43,7 +52,7 @@ from relguide.planning.tables import leader_path, path_of
 from relguide.planning.trajectory import Trajectory, pieces_text
 from relguide.planning.wind import CALM
 from relguide.planning.words import HORIZON, Candidates, candidates
-from relguide.units import KT, Metre, Millisecond, Second
+from relguide.units import FT, KT, NM, Metre, Millisecond, Second
 
 Proof = Literal["relaxation", "certified", "bound", "none"]
 """What proves a plan: the best plan without the limit keeps it; a lower bound within 0.1 s, which
@@ -225,6 +234,8 @@ class NoPlan:
 
 AS_FAST: Second = 1e-6
 """Times closer than this count as equal: the same path found twice differs by rounding [s]."""
+SLOT_CHANGES: tuple[Metre, ...] = (1.0 * NM, -1.0 * NM, 2.0 * NM, -2.0 * NM, 4.0 * NM, 8.0 * NM)
+"""By how much another D is tried, in turn, until one helps [m]."""
 Planner = Callable[[Situation], Plan | NoPlan]
 """The one protocol of all planners."""
 _Chosen = tuple[Candidate, Certificate, Optimality]
@@ -257,9 +268,19 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
         ValueError: if the deadline is out of range, or `situation` is no situation.
     """
     expect("situation", situation, Situation)
-    if situation.others:
-        return _amid_others(situation, deadline)
+    if situation.others and deadline is not None:
+        load_kernels()
     until = end_of(deadline)
+    answer = _plan_at_any_level(situation, until)
+    if isinstance(answer, NoPlan) and answer.reason == Reason.TRAFFIC:
+        helps = tuple(_remedies(answer, situation, until))
+        message = " ".join((answer.message, *(remedy.message for remedy in helps)))
+        return replace(answer, message=message, remedies=helps)
+    return answer
+
+
+def _plan_at_any_level(situation: Situation, until: float) -> Plan | NoPlan:
+    """`plan`, without looking for what would help."""
     if chooses_level(situation):
         return _plan_by_level(situation, until)
     return _plan(situation, until)
@@ -267,6 +288,8 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
 
 def _plan(situation: Situation, until: float) -> Plan | NoPlan:
     """`plan` where the pursuer's level is settled."""
+    if situation.others:
+        return _plan_amid_others(situation, until)
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
     separation = _separation(situation)
@@ -308,13 +331,96 @@ def plan_at_once(situation: Situation) -> Plan | NoPlan | None:
     return None if chosen is None else _plan_of(chosen, situation, started)
 
 
-def _amid_others(situation: Situation, deadline: Second | None) -> Plan | NoPlan:
-    """As `plan`, where there is more to keep clear of than the leader."""
-    from relguide.planning import amid  # most who plan have no others
+def _plan_amid_others(situation: Situation, until: float) -> Plan | NoPlan:
+    """The plan for the leader alone if it keeps clear of all, or the fastest path found that does.
 
-    if deadline is not None:
-        amid.load_kernels()
-    return amid.plan_amid(situation, until=end_of(deadline))
+    Leaving others out relaxes what is asked, so the bound of the one holds for the other.
+    """
+    started = perf_counter_ns()
+    alone = _plan(replace(situation, others=()), until)
+    if isinstance(alone, NoPlan) and alone.reason == Reason.SEPARATION_ALREADY_LOST:
+        return alone
+    lost = lost_already(situation)
+    if lost is not None:
+        nearest, message = lost
+        reason = Reason.SEPARATION_ALREADY_LOST
+        return NoPlan(reason=reason, message=message, conflict=_conflict(nearest))
+    if isinstance(alone, NoPlan):
+        return alone
+    certificate = certify(alone.trajectory, situation)
+    if certificate.holds:
+        took = (perf_counter_ns() - started) * 1e-6
+        return replace(alone, situation=situation, certificate=certificate, compute_time=took)
+    bound, until = alone.optimality.lower_bound, until - TO_PUT_DOWN
+    found = just_as_it_opens(situation) or around(situation, until)
+    if found is not None:
+        return _plan_of((*found, _relaxed(found[0], bound)), situation, started)
+    if time_is_up(until):
+        return NoPlan(
+            reason=Reason.DEADLINE,
+            message="No path that keeps clear of all was found by the deadline; none is faster "
+            f"than {bound:.0f} s. A later deadline may help.",
+            lower_bound=bound,
+        )
+    later = islice(candidates(situation).later, MOST_TRIED)
+    nearest = nearest_miss(
+        (alone.trajectory, *(candidate.trajectory for candidate in later)), situation
+    )
+    why = comes_too_close(
+        nearest.ident, nearest.least_separation, nearest.min_separation, nearest.at_time
+    )
+    return NoPlan(
+        reason=Reason.TRAFFIC,
+        message=f"No path to the slot was found that keeps clear of all: the best one {why}.",
+        lower_bound=bound,
+        conflict=_conflict(nearest),
+    )
+
+
+def _relaxed(candidate: Candidate, bound: Second) -> Optimality:
+    """What the bound of a relaxed problem proves of a path."""
+    time = candidate.time_to_converge
+    proof: Proof = "relaxation" if time <= bound + AS_FAST else "bound"
+    return Optimality(proof=proof, lower_bound=min(bound, time))
+
+
+def _remedies(unable: NoPlan, situation: Situation, until: float) -> Iterator[Remedy]:
+    """What would help where no path was found that keeps clear of all, each tried.
+
+    To ask later, or to pass on the other side, is none: a path that first flies on, or round the
+    other side, is a path now, and was searched.
+    """
+    for change in SLOT_CHANGES:
+        slot_distance = situation.slot_distance + change
+        if not situation.min_separation <= slot_distance <= DISTANCE.high or time_is_up(until):
+            continue
+        answer = _plan_at_any_level(replace(situation, slot_distance=slot_distance), until)
+        if isinstance(answer, Plan):
+            behind = f"{distance(slot_distance)} behind the leader"
+            yield _remedy("slot_distance", slot_distance, answer, behind)
+            break
+    pursuer, leader = situation.pursuer, situation.leader
+    if pursuer.levels or chooses_level(situation) or None in (pursuer.altitude, leader.altitude):
+        return
+    for level in meanwhile(situation):
+        for answer in _by_way_of(level, situation, unable.lower_bound, until):
+            yield _remedy("level", level, answer, f"At {level / FT:,.0f} ft until it joins")
+            return
+
+
+def _remedy(kind: RemedyKind, value: float, answer: Plan, what: str) -> Remedy:
+    time = answer.time_to_converge
+    message = f"{what} there is a plan of {time:.0f} s."
+    return Remedy(kind=kind, value=value, time_to_converge=time, message=message)
+
+
+def _conflict(nearest: OtherSeparation) -> Conflict:
+    return Conflict(
+        ident=nearest.ident,
+        at_time=nearest.at_time,
+        least_separation=nearest.least_separation,
+        min_separation=nearest.min_separation,
+    )
 
 
 def _at_once_amid_others(situation: Situation) -> Plan | NoPlan | None:
@@ -350,22 +456,34 @@ def _plan_by_level(situation: Situation, until: float) -> Plan | NoPlan:
     bound = first.optimality.lower_bound if isinstance(first, Plan) else first.lower_bound
     own = situation.pursuer.altitude
     for level in () if own is None else (own, *meanwhile(situation)):
-        time = bound
-        while not (best and best.time_to_converge <= bound + AS_FAST) and not time_is_up(until):
-            asked = changing_late(situation, level, time)
-            answer = None if asked is None else _plan(asked, until)
-            if not isinstance(answer, Plan) or not _joins_at_level(answer):
-                break
+        if best is not None and best.time_to_converge <= bound + AS_FAST:
+            break
+        for answer in _by_way_of(level, situation, bound, until):
             if best is None or answer.time_to_converge < best.time_to_converge - AS_FAST:
                 best = answer
-            if answer.time_to_converge <= time + AS_FAST:
+            if best.time_to_converge <= bound + AS_FAST:
                 break
-            time = answer.time_to_converge
     if best is not None:
         return best
     if isinstance(first, NoPlan):
         return first
     return _later_at_level(first)
+
+
+def _by_way_of(level: Metre, situation: Situation, time: Second, until: float) -> Iterator[Plan]:
+    """Plans that stay at a level [m] as long as possible: first to join at a time [s], then later.
+
+    Each later one changes the level as late as the one before it allows.
+    """
+    while not time_is_up(until):
+        asked = changing_late(situation, level, time)
+        answer = None if asked is None else _plan(asked, until)
+        if not isinstance(answer, Plan) or not _joins_at_level(answer):
+            return
+        yield answer
+        if answer.time_to_converge <= time + AS_FAST:
+            return
+        time = answer.time_to_converge
 
 
 def _joins_at_level(answer: Plan) -> bool:
@@ -500,17 +618,20 @@ def _find_certified(
             chosen = candidate, certificate
             break
     beat = chosen[0].time_to_converge if chosen else HORIZON
-    around, cut_short = constrained_path(found, beat=beat, until=until - TO_PUT_DOWN)
-    if around is not None:
-        certificate = judge(around.trajectory, situation, radius, leading)
+    touching, cut_short = constrained_path(found, beat=beat, until=until - TO_PUT_DOWN)
+    if touching is not None:
+        certificate = judge(touching.trajectory, situation, radius, leading)
         if certificate.holds:
-            chosen = around, certificate
+            chosen = touching, certificate
+    if counted(heights_of(situation.pursuer), heights_of(situation.leader)) != ALWAYS:
+        # where height keeps them apart for a while, paths may pass through the disc meanwhile
+        passing = around(situation, until - TO_PUT_DOWN)
+        if passing and (chosen is None or passing[0].time_to_converge < chosen[0].time_to_converge):
+            chosen = passing
     if chosen is None:
         return None, cut_short
-    time = chosen[0].time_to_converge
     # a path that touches d_min and arrives as the slot opens is as fast as any without the limit
-    proof: Proof = "relaxation" if time <= bound + AS_FAST else "bound"
-    return (*chosen, Optimality(proof=proof, lower_bound=min(bound, time))), cut_short
+    return (*chosen, _relaxed(chosen[0], bound)), cut_short
 
 
 def _fastest_extremal(

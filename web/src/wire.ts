@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-d8a77f518975";
+export const PROTOCOL = "relguide-774dc5000c89";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -41,6 +41,7 @@ export type PlanReason =
 export type LeaderChange =
   | "heading"
   | "speed"
+  | "level"
   | "intent_received"
   | "intent_withdrawn"
   | "intent_broken";
@@ -74,6 +75,7 @@ export type Fault =
   | "slot"
   | "heading"
   | "too_early"
+  | "level"
   | "separation";
 
 /** Why there is no plan. */
@@ -644,6 +646,7 @@ export interface GeodeticPursuer {
   tas_mps: number;
   max_bank_deg: number;
   altitude_m?: number | null;
+  levels?: PlannedLevel[];
 }
 
 /** Another aircraft, at t = 0, placed on the earth (WGS84): to be kept clear of. */
@@ -772,6 +775,16 @@ export interface LevelChange {
   hold?: "cas" | "mach" | "tas";
 }
 
+/** A climb or a descent that the pursuer makes on its way. */
+export interface LevelChangeCard {
+  /** When it begins. */
+  at_s: number;
+  /** Pressure altitude to level off at. */
+  to_altitude_m: number;
+  /** How fast. */
+  rate_mps: number;
+}
+
 /** A piece of intent: begin to change the level. The pieces behind it are flown meanwhile. */
 export interface LevelChangePiece {
   level_change: LevelChange;
@@ -871,6 +884,7 @@ export interface LocalPursuer {
   tas_mps: number;
   max_bank_deg: number;
   altitude_m?: number | null;
+  levels?: PlannedLevel[];
 }
 
 /** Another aircraft, at t = 0, with what it has declared it will do: to be kept clear of. */
@@ -1046,6 +1060,8 @@ export interface PlanCard {
   length_m: number;
   /** In the order they are flown. */
   segments: PathSegment[];
+  /** Changes of level on the way. Left out if there is none. */
+  levels?: LevelChangeCard[];
   /** From the leader, along the path. */
   separation: Separation;
   /** How its end meets the slot. */
@@ -1134,6 +1150,13 @@ export interface PlanUnavailable {
   /** The pursuer's. */
   ident: string;
   answer: NoPlanCard;
+}
+
+/** A climb or a descent of the pursuer. */
+export interface PlannedLevel {
+  at_s: number;
+  to_altitude_m: number;
+  rate_mps: number;
 }
 
 /** What planners would fly in one situation. */

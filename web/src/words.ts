@@ -100,6 +100,12 @@ export const ELEMENTS: readonly Element[] = [
     "both aircraft when they are closest, and where the minimum will be round the leader then",
     "key-dotted",
   ),
+  element(
+    "nearest",
+    "Nearest to another",
+    "on the map: where the path is nearest to another aircraft or a cell, and when; amber where that leaves no path",
+    "key-dotted",
+  ),
   element("capture", "Join", "where own ship reaches the slot", "key-join"),
   element(
     "slot",

@@ -137,7 +137,7 @@ def _try_to_plan(
     if memory.mode == "escape":
         rested = t - memory.since >= settings.escapes_for and is_steady(memory, belief, assignment)
         clear = min(assignment.min_separation + settings.escape_room, assignment.aim)
-        if not rested or belief.separation < clear:
+        if not rested or belief.counted_separation < clear:
             return memory, []
     # Of two ways round that are as fast, the one that the crew accepted is flown.
     like = None if memory.proposed is None else memory.proposed.path
@@ -296,11 +296,15 @@ def _has_left_capture(memory: Memory, belief: Belief, assignment: Assignment) ->
 
 def _act(memory: Memory, belief: Belief, assignment: Assignment) -> Act:
     course = NO_COURSE if memory.committed is None else memory.committed.course
-    return act(
+    done = act(
         memory.progress, belief.own, belief.limits, course, belief.track.marks,
         belief.turn_to_come, assignment.task, assignment.gate, assignment.gains, belief.drift,
         belief.t,
     )  # fmt: skip
+    if done.joined and memory.mode != "follow" and not belief.at_level:
+        progress = done.progress._replace(mode=NUMBERS["capture"])
+        return done._replace(joined=False, progress=progress)
+    return done
 
 
 def _outlook(memory: Memory, belief: Belief, assignment: Assignment) -> Outlook:

@@ -57,6 +57,8 @@ def judge_speed(
     memory: Memory, belief: Belief, assignment: Assignment
 ) -> tuple[Memory, tuple[Event, ...]]:
     """Whether the leader is slower than the pursuer can fly, and what is said of it once."""
+    if not belief.at_level:
+        return memory, ()  # at the leader's level other speeds can be flown
     slow, in_hand = belief.leader.tas, assignment.settings.speed_in_hand
     if slow < assignment.min_tas - in_hand - belief.speed_slack:
         if memory.unable == "speed":

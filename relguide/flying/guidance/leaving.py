@@ -71,7 +71,7 @@ def keep_heading(
     memory: Memory, belief: Belief, assignment: Assignment
 ) -> tuple[Memory, list[Event]]:
     """Keep the heading held for as long as it keeps clear; a new one does not come in silence."""
-    if memory.mode not in ("heading", "escape"):
+    if memory.mode not in ("heading", "escape") or not belief.counts:
         return memory, []
     settings, progress = assignment.settings, memory.progress
     turns_on = turns_unannounced(belief, assignment)
@@ -81,7 +81,9 @@ def keep_heading(
     )
     if kept >= assignment.min_separation + settings.escape_tube:
         return memory, []
-    if not of and belief.separation < min(assignment.min_separation, kept + settings.escape_tube):
+    if not of and belief.counted_separation < min(
+        assignment.min_separation, kept + settings.escape_tube
+    ):
         # already lost, and at its least: nothing is to be kept, but d_min regained soonest
         soonest = restore(situation_now(belief, assignment))
         gained = _regained_in(belief, progress.heading, assignment) - soonest.at_time

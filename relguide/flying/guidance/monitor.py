@@ -138,7 +138,7 @@ def judge_separation(
     t, limit, settings = belief.t, assignment.min_separation, assignment.settings
     apart = belief.separation
     level: AlertState = "none"
-    if apart < limit:
+    if belief.counted_separation < limit:
         level = "warning"
     elif outlook.least < limit and outlook.at - t <= settings.caution:
         level = "caution"

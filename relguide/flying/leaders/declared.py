@@ -12,7 +12,7 @@ from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import Body, Limits
 from relguide.kernels.flight.program import ROLLED_OUT, STRAIGHT, TURN, roll_lead
 from relguide.planning.aircraft import Leader, Traffic
-from relguide.planning.intent import ROUNDED, FlyStraight, IntentPiece, TurnTo
+from relguide.planning.intent import ROUNDED, ChangeLevel, FlyStraight, IntentPiece, TurnTo
 from relguide.planning.limits import MAX_PIECES
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG, Radian, RadianPerSecond, Second
@@ -26,11 +26,13 @@ ROLLED_IN: Radian = 2.0 * DEG
 class Program(NamedTuple):
     """What an aircraft is to fly."""
 
-    pieces: tuple[IntentPiece, ...]
+    pieces: tuple[FlyStraight | TurnTo, ...]
     rows: FloatArray
     """The same as the kernels take it. shape (n, 3)"""
     held: Radian
     """Heading before the first piece, continuous [rad]."""
+    levels: tuple[tuple[Second, ChangeLevel], ...] = ()
+    """Its changes of level, and when each begins, flight time [s]."""
 
 
 def program_of(
@@ -52,11 +54,15 @@ def program_of(
         tas: true airspeed, which with the bank makes the turns take their time [m/s].
         max_roll_rate: of the aircraft [rad/s]; infinite if it need not roll.
     """
-    flown: list[IntentPiece] = []
+    flown: list[FlyStraight | TurnTo] = []
+    levels: list[tuple[Second, ChangeLevel]] = []
     rows: list[tuple[float, float, float]] = []
     now = heading
     for piece in pieces:
         match piece:
+            case ChangeLevel():
+                levels.append((t, piece))
+                continue
             case FlyStraight(duration=duration):
                 t += duration
                 rows.append((STRAIGHT, t, 0.0))
@@ -80,7 +86,7 @@ def program_of(
                 t += angle / rate
                 rows.append((TURN, now, -turn * bank))
         flown.append(piece)
-    return Program(tuple(flown), np.array(rows).reshape(-1, 3), heading)
+    return Program(tuple(flown), np.array(rows).reshape(-1, 3), heading, tuple(levels))
 
 
 def turn_program(heading: Radian, to: Radian, direction: TurnChoice, bank: Radian) -> Program:

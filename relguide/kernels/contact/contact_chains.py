@@ -19,8 +19,9 @@ from relguide.kernels.base.angles import TWO_PI, wrap_signed
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Contact, Pose
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.contact import contact_at, contact_exists
+from relguide.kernels.contact.contact import contact_at, contact_exists, contact_on
 from relguide.kernels.contact.detours import scan_detours
+from relguide.kernels.contact.nodes import BoolArray
 from relguide.kernels.contact.others import (
     Others,
     counts_at,
@@ -30,7 +31,11 @@ from relguide.kernels.contact.others import (
     word_broken_by,
     words_to_slot,
 )
-from relguide.kernels.contact.paths_to_contact import earliest_arrival, paths_to_contact
+from relguide.kernels.contact.paths_to_contact import (
+    earliest_arrival,
+    not_before_slot,
+    paths_to_contact,
+)
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS
 
 MOST_CONTACTS = 3
@@ -53,21 +58,27 @@ class Places(NamedTuple):
     words: FloatArray
     """As a row of `paths_to_contact`. shape (·, 5)"""
     parents: FloatArray
-    """Number of the contact before it, how many there are before, and 1 once it was followed.
-    shape (·, 3)"""
+    """Number of the contact before it, how many there are before, and 1 once detours from it were
+    scanned, 2 if it is like one from which they were. shape (·, 3)"""
     arrivals: FloatArray
     """At the slot straight from there, in place of which a detour may be: arrival, and sign, angle
     and straight of the detour. shape (·, 4)"""
+    active: BoolArray
+    """Those of the others that were in the way so far: contacts are looked for with them.
+    shape (n,)"""
+    followed: BoolArray
+    """From which contact contacts with which of the others have been looked for. shape (·, n)"""
     used: FloatArray
     """How many there are; how many words were solved. shape (2,)"""
 
 
 @njit(cache=True, nogil=True)
-def no_places(start: Pose, bound: float) -> Places:
-    """Nothing but the start."""
+def no_places(start: Pose, bound: float, n: int) -> Places:
+    """Nothing but the start, amid n others."""
     places = Places(
         np.zeros((_ROOM, 5)), np.zeros((_ROOM, 4)), np.zeros((_ROOM, 5)), np.zeros((_ROOM, 3)),
-        np.full((_ROOM, 4), inf), np.zeros(2),
+        np.full((_ROOM, 4), inf), np.zeros(n, np.bool_), np.zeros((_ROOM, n), np.bool_),
+        np.zeros(2),
     )  # fmt: skip
     poses = places.poses
     poses[0, 0], poses[0, 1], poses[0, 2] = start
@@ -79,15 +90,16 @@ def no_places(start: Pose, bound: float) -> Places:
 
 @njit(cache=True, nogil=True)
 def follow_contacts(
-    places: Places, others: Others, active: FloatArray, bearings: int, turns: int,
-    straights: FloatArray, beat: float, margin: float, effort: float,
+    places: Places, others: Others, bearings: int, turns: int, straights: FloatArray, beat: float,
+    margin: float, effort: float,
 ) -> float:  # fmt: skip
     """Follow the most promising contacts until no other could be sooner, or the effort is spent.
+
+    Contacts are looked for only with those of the others that came in the way of a word so far.
 
     Args:
         places: with the start in it; takes all contacts found.
         others: what is kept clear of.
-        active: 1 for those of the others that contacts are looked for with. shape (n,)
         bearings: so many round each of the others.
         turns: of the detours scanned from each contact, steps of a full turn.
         straights: of these detours, as in `scan_detours`.
@@ -98,29 +110,60 @@ def follow_contacts(
     Returns:
         the first arrival found, or `beat`.
     """
-    grid = np.empty((2, turns + 1, len(straights)))
+    grid, rows = np.empty((2, turns + 1, len(straights))), np.empty((MAX_ROWS, 5))
     while places.used[1] < effort and not time_is_up(others.until):
         at = _most_promising(places, beat)
         if at < 0:
             break
-        places.parents[at, 2] = 1.0
-        if _is_like_followed(places, at):
-            continue
-        if at > 0:
-            beat = _scan_from(places, at, others, turns, straights, beat, margin, grid)
-        if places.parents[at, 1] < MOST_CONTACTS:
-            beat = _follow(places, at, others, active, bearings, beat, margin)
+        if places.parents[at, 2] == 0.0:
+            places.parents[at, 2] = 1.0
+            if _is_like_followed(places, at):
+                continue
+            _look_onward(places, at, others, beat, rows)
+            if at > 0:
+                beat = _scan_from(places, at, others, turns, straights, beat, margin, grid)
+        for i in range(len(others.limits)):
+            if places.active[i] and not places.followed[at, i]:
+                places.followed[at, i] = True
+                if places.parents[at, 1] < MOST_CONTACTS and is_disc(others, i):
+                    beat = _follow(places, at, i, others, bearings, beat, margin)
     return beat
 
 
 @njit(cache=True, nogil=True)
 def _most_promising(places: Places, beat: float) -> int:
-    """The contact not yet followed from which the slot might be reached soonest; −1 if none."""
+    """The contact with more to look for from which the slot might be reached soonest, or −1."""
     best, at = beat, -1
     for k in range(int(places.used[0])):
-        if places.parents[k, 2] == 0.0 and places.poses[k, 4] < best:
+        if places.parents[k, 2] != 2.0 and places.poses[k, 4] < best and _has_more(places, k):
             best, at = places.poses[k, 4], k
     return at
+
+
+@njit(cache=True, nogil=True)
+def _has_more(places: Places, k: int) -> bool:
+    if places.parents[k, 2] == 0.0:
+        return True
+    for i in range(len(places.active)):
+        if places.active[i] and not places.followed[k, i]:
+            return True
+    return False
+
+
+@njit(cache=True, nogil=True)
+def _look_onward(
+    places: Places, at: int, others: Others, beat: float, rows: FloatArray
+) -> None:  # fmt: skip
+    """Make those of the others active that are in the way of the fastest words from a contact."""
+    pose, t = _pose_of(places, at), places.poses[at, 3]
+    n = words_to_slot(pose, t, others, rows)
+    for k in range(min(n, _WORDS)):
+        if t + rows[k, 0] >= beat:
+            break
+        broken = word_broken_by(pose, t, rows[k], others)
+        if broken < 0:
+            break
+        places.active[broken] = True
 
 
 @njit(cache=True, nogil=True)
@@ -170,44 +213,53 @@ def _scan_from(
 
 @njit(cache=True, nogil=True)
 def _follow(
-    places: Places, at: int, others: Others, active: FloatArray, bearings: int, beat: float,
-    margin: float,
-) -> float:  # fmt: skip
-    """All contacts that a word leads to from one, if the slot might be reached soon enough."""
+    places: Places, at: int, i: int, others: Others, bearings: int, beat: float, margin: float
+) -> float:
+    """All contacts with one of the others that words lead to, if the slot may be reached in time.
+
+    What is in the way of the fastest word to one of them becomes active.
+    """
     pose, t = _pose_of(places, at), places.poses[at, 3]
     rows, onward = np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5))
-    for i in range(len(others.limits)):
-        if active[i] == 0.0 or not is_disc(others, i):
-            continue
-        scene = scene_with(others, i)
-        for piece in range(len(scene.leader)):
-            for k in range(2 * bearings):
-                contact = Contact(piece, TWO_PI * (k // 2) / bearings, 1.0 - 2.0 * (k % 2))
-                if not contact_exists(contact.bearing, scene.alpha):
+    scene, to_slot = scene_with(others, i), scene_with(others, 0)
+    for piece in range(len(scene.leader)):
+        for k in range(2 * bearings):
+            contact = Contact(piece, TWO_PI * (k // 2) / bearings, 1.0 - 2.0 * (k % 2))
+            if not contact_exists(contact.bearing, scene.alpha):
+                continue
+            first = earliest_arrival(pose, t, scene, contact, beat)
+            if first >= beat:
+                continue
+            # a contact that is no faster than the pursuer is never nearer to the slot later
+            if scene.leader[piece, 4] == 0.0 and scene.alpha <= 1.0:
+                there = contact_on(scene, contact, first)
+                if not_before_slot(there, first, to_slot) >= beat:
                     continue
-                if earliest_arrival(pose, t, scene, contact, beat) >= beat:
+            n = paths_to_contact(pose, t, scene, contact, beat, rows)
+            places.used[1] += 1.0
+            clear, tried = 0, 0
+            for r in range(n):
+                time = rows[r, 0]
+                if time < t + _NEAR or not counts_at(others, i, time):
                     continue
-                n = paths_to_contact(pose, t, scene, contact, beat, rows)
+                if time >= beat or clear >= _WORDS:
+                    break
+                there = contact_at(scene, time, contact.bearing, contact.side)
+                m = words_to_slot(there, time, others, onward)
                 places.used[1] += 1.0
-                clear = 0
-                for r in range(n):
-                    time = rows[r, 0]
-                    if time < t + _NEAR or not counts_at(others, i, time):
-                        continue
-                    if time >= beat or clear >= _WORDS:
-                        break
-                    there = contact_at(scene, time, contact.bearing, contact.side)
-                    m = words_to_slot(there, time, others, onward)
-                    places.used[1] += 1.0
-                    if m == 0 or time + onward[0, 0] >= beat:
-                        continue
-                    if word_broken_by(pose, t, rows[r], others) >= 0:
-                        continue
-                    clear += 1
-                    bound, until = time + onward[0, 0], beat + margin
-                    arrival, _ = first_clear_of_all(there, time, onward[:m], others, until)
-                    beat = min(beat, arrival)
-                    _put(places, at, i, contact, rows[r], there, bound, arrival)
+                if m == 0 or time + onward[0, 0] >= beat:
+                    continue
+                broken = word_broken_by(pose, t, rows[r], others)
+                tried += 1
+                if broken >= 0:
+                    if tried == 1:
+                        places.active[broken] = True
+                    continue
+                clear += 1
+                bound, until = time + onward[0, 0], beat + margin
+                arrival, _ = first_clear_of_all(there, time, onward[:m], others, until)
+                beat = min(beat, arrival)
+                _put(places, at, i, contact, rows[r], there, bound, arrival)
     return beat
 
 
@@ -235,6 +287,7 @@ def _put(
     places.words[n] = row
     places.parents[n, 0], places.parents[n, 1] = parent, places.parents[parent, 1] + 1.0
     places.parents[n, 2] = 0.0
+    places.followed[n] = False
     places.arrivals[n, 0], places.arrivals[n, 1] = arrival, 1.0
     places.arrivals[n, 2], places.arrivals[n, 3] = 0.0, 0.0
 

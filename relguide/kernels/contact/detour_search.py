@@ -88,10 +88,9 @@ def fastest_clear_of_all(
         if time < best:
             best, count = time, 1
             best_pairs[:] = trial
-    places = no_places(start, bound)
-    active = np.ones(len(mine.limits))
+    places = no_places(start, bound, len(mine.limits))
     onward = straights_to_try(0.5, 40.0)
-    follow_contacts(places, mine, active, _BEARINGS, _TURNS_ON, onward, best, _MARGIN, _EFFORT)
+    follow_contacts(places, mine, _BEARINGS, _TURNS_ON, onward, best, _MARGIN, _EFFORT)
     best, count = _follow_down(start, places, mine, best, count, best_pairs)
     best, count = _by_more_turns(start, mine, best, count, best_pairs)
     pairs[:] = best_pairs

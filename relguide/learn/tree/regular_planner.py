@@ -34,6 +34,7 @@ from relguide.maps.area import Encounter
 from relguide.planning.candidate import SIGN_ROWS, Candidate, assemble
 from relguide.planning.certificate import Certificate, certify
 from relguide.planning.inputs import expect
+from relguide.planning.levels import chooses_level
 from relguide.planning.plan import NoPlan, Optimality, Plan, plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
@@ -106,10 +107,10 @@ def _plan(
 def propose(situation: Situation) -> Iterator[Candidate]:
     """The word of the nearest path; then that path's first pair, and the word of the rest.
 
-    Whether they keep d_min is not asked here: `certify` judges that.
+    Whether they keep d_min is not asked here: `certify` judges that. The tree knows no levels.
     """
     frame = slot_frame(situation, situation.leader.trajectory)
-    if not LEAST_RATIO <= frame.alpha <= MOST_RATIO:
+    if not LEAST_RATIO <= frame.alpha <= MOST_RATIO or chooses_level(situation):
         return
     pairs = nearest_pairs(tree_for(ratios_of(situation, frame)), frame)
     if pairs is None:

@@ -14,7 +14,12 @@ from relguide import LEFT, Cell, ChangeLevel, Disc, FlyStraight, Polygon, Traffi
 from relguide.client.bodies import body_of
 from relguide.contract.answers import answer
 from relguide.contract.bodies import situation_from_json
+from relguide.contract.messages import plan_from_wire
 from relguide.contract.refusal import ContractError
+from relguide.flying.plan_documents import PlanCard
+from relguide.learn.planners import PLANNERS, make_planner
+from relguide.planning.heights import VERTICAL_MINIMUM
+from relguide.planning.intent import LevelChange
 from relguide.planning.limits import MAX_OTHERS
 from relguide.planning.situation import Situation
 from tests.bodies import AMID, BODY, CELLS, TRAFFIC, changed, on_earth
@@ -64,6 +69,22 @@ def test_heights_are_read() -> None:
     situation, _ = situation_from_json(changed(body, "leader.intent", [change]))
     assert (situation.pursuer.altitude, situation.leader.altitude) == (9_000.0, -500.0)
     assert situation.leader.intent == (ChangeLevel(to_altitude=20_000.0, rate=60.0, hold="cas"),)
+
+
+def test_the_pursuers_own_changes_of_level_are_read() -> None:
+    levels = [
+        {"at_s": 30, "to_altitude_m": 8_000, "rate_mps": 5},
+        {"at_s": 30, "to_altitude_m": 7_000, "rate_mps": 6},
+    ]
+    situation, _ = situation_from_json(changed(BODY, "pursuer.levels", levels))
+    assert situation.pursuer.levels == (
+        LevelChange(at=30.0, to_altitude=8_000.0, rate=5.0),
+        LevelChange(at=30.0, to_altitude=7_000.0, rate=6.0),
+    )
+    levels[1]["at_s"] = 29
+    where, said = problem_of(changed(BODY, "pursuer.levels", levels))
+    assert where == "pursuer.levels[1].at_s"
+    assert said == "must not be before that of the level in front of it."
 
 
 WRONG: list[tuple[str, Any, str, str]] = [
@@ -206,6 +227,14 @@ level_changes = st.builds(
 )
 
 
+levels = st.builds(
+    LevelChange,
+    at=numbers(0.0, 86_400.0),
+    to_altitude=numbers(-500.0, 20_000.0),
+    rate=numbers(0.5, 60.0),
+)
+
+
 def ring(x: float, y: float, size: float, corners: int) -> Polygon:
     angles = [2.0 * pi * k / corners for k in range(corners)]
     return Polygon(corners=tuple((x + size * cos(a), y + size * sin(a)) for a in angles))
@@ -245,7 +274,9 @@ def amid_others(draw: st.DrawFn) -> Situation:
     )
     return replace(
         plain,
-        pursuer=replace(plain.pursuer, altitude=draw(altitudes)),
+        pursuer=replace(
+            plain.pursuer, altitude=draw(altitudes), levels=draw(st.lists(levels, max_size=1))
+        ),
         leader=replace(plain.leader, altitude=draw(altitudes)),
         others=others,
     )
@@ -257,6 +288,7 @@ def test_a_situation_comes_back_as_it_was_sent(situation: Situation) -> None:
     text = json.dumps(body_of(situation))
     read, _ = situation_from_json(text)
     assert read.pursuer.altitude == situation.pursuer.altitude
+    assert read.pursuer.levels == situation.pursuer.levels
     assert read.leader.altitude == situation.leader.altitude
     assert len(read.others) == len(situation.others)
     for ours, theirs in zip(situation.others, read.others, strict=True):
@@ -387,7 +419,8 @@ def test_without_others_nothing_is_said_of_them(name: str) -> None:
         del body["id"]
         plain = text_of(body)
         assert text_of({**body, "traffic": [], "cells": []}) == plain
-        assert not any(f'"{word}"' in plain for word in ("others", "vertical", "ident", "conflict"))
+        for word in ("others", "vertical", "levels", "ident", "conflict", "remedies"):
+            assert f'"{word}"' not in plain
 
 
 def test_far_away_others_change_nothing_but_what_is_said_of_them() -> None:
@@ -400,3 +433,44 @@ def test_far_away_others_change_nothing_but_what_is_said_of_them() -> None:
     for other in others:
         assert other["least_m"] >= other["proved_above_m"] > other["min_separation_m"]
         assert set(other) == {"ident", "least_m", "at_s", "proved_above_m", "min_separation_m"}
+
+
+DESCENDING: dict[str, Any] = {
+    **BODY,
+    "pursuer": {**BODY["pursuer"], "altitude_m": 10_668},
+    "leader": {
+        **BODY["leader"],
+        "altitude_m": 9_144,
+        "intent": [
+            {"straight_s": 60},
+            {"level_change": {"to_altitude_m": 7_620, "rate_mps": 8}},
+        ],
+    },
+}
+"""Its pursuer begins above the leader, who descends."""
+
+
+@pytest.mark.parametrize("name", PLANNERS)
+def test_a_plan_says_when_it_changes_its_level_and_when_height_counts(name: str) -> None:
+    reply = answer(*situation_from_json(DESCENDING), make_planner(name))
+    assert reply["levels"][-1]["to_altitude_m"] == 7_620.0
+    assert reply["levels"][-1].keys() == {"at_s", "to_altitude_m", "rate_mps"}
+    (first, *_) = reply["separation"]["vertical"]
+    assert first.keys() == {"from_s", "to_s", "least_m"}
+    assert first["from_s"] == 0.0
+    assert first["least_m"] > VERTICAL_MINIMUM - 2.0
+    card = plan_from_wire(reply)
+    assert isinstance(card, PlanCard)
+    assert card.levels[-1].to_altitude == 7_620.0
+    assert card.separation.vertical[0].from_ == 0.0
+
+
+def test_height_keeps_traffic_apart_as_well() -> None:
+    """Who crosses above, far enough, may do so anywhere."""
+    above = {**TRAFFIC[1], "x_m": -20_000, "y_m": 38_000, "altitude_m": 10_668 + 1_000}
+    body = {**DESCENDING, "leader": {**BODY["leader"], "altitude_m": 10_668}, "traffic": [above]}
+    reply = answer(*situation_from_json(body), plan)
+    (other,) = reply["separation"]["others"]
+    assert other["vertical"][0]["from_s"] == 0.0
+    assert "vertical" not in reply["separation"]
+    assert "levels" not in reply

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from relguide import Certificate, NoPlan, Plan, Reason, Situation, certify, plan
+from relguide import Cell, Certificate, Disc, NoPlan, Plan, Reason, Situation, certify, plan
 from relguide.planning.acceptance import ask, judge_answer
 from tests.liars import LIARS, LIED_ABOUT, Liar
 from tests.plans import find_plan
@@ -59,3 +59,40 @@ def test_what_a_planner_raises_is_its_callers_to_see() -> None:
 
     with pytest.raises(OwnError, match="no licence"):
         ask(broken, LIED_ABOUT)
+
+
+HIGH = replace(
+    LIED_ABOUT,
+    pursuer=replace(LIED_ABOUT.pursuer, altitude=11_000.0),
+    leader=replace(LIED_ABOUT.leader, altitude=9_000.0),
+)
+"""The pursuer has to descend on its way."""
+
+
+def test_a_plan_that_stays_at_its_level_does_not_join() -> None:
+    flat = find_plan(LIED_ABOUT)
+    answer = ask(lambda situation: replace(flat, planner="flat"), HIGH)
+    assert answer.refusal is not None
+    assert (answer.refusal.fault, answer.fell_back) == ("level", True)
+    assert isinstance(answer.plan, Plan)
+    assert answer.plan.levels[-1].to_altitude == 9_000.0
+
+
+def test_changes_of_level_that_a_planner_plans_are_kept() -> None:
+    exact = find_plan(HIGH)
+    answer = ask(lambda situation: replace(exact, planner="own"), HIGH)
+    assert answer.refusal is None
+    assert isinstance(answer.plan, Plan)
+    assert answer.plan.levels == exact.levels != ()
+    assert answer.plan.certificate == exact.certificate
+
+
+def test_who_is_in_the_way_of_a_plan_is_named() -> None:
+    plain = find_plan(LIED_ABOUT)
+    middle = plain.over_ground([0.6 * plain.time_to_converge])
+    cell = Cell(ident="CB1", shape=Disc(x=middle.x[0], y=middle.y[0], radius=2_000.0))
+    amid = replace(LIED_ABOUT, others=(cell,))
+    answer = ask(lambda situation: replace(plain, planner="blind"), amid)
+    assert answer.refusal is not None
+    assert answer.refusal.fault == "separation"
+    assert answer.refusal.message.endswith("NM into CB1.")

@@ -3,6 +3,7 @@
 import { signal } from "@preact/signals";
 import { checkSituation } from "../api";
 import { situationOf } from "../map/from-flight";
+import { bodyOf } from "../map/situation";
 import type { Planned } from "../store/committed";
 import { type History, momentAt } from "../store/history";
 import { formatClock, inPageUnits, NM } from "../units";
@@ -28,7 +29,7 @@ export async function costatesOf(history: History, plan: Planned): Promise<Costa
   const when = formatClock(plan.t_s);
   if (situation === null)
     return missing(`Nothing is known of where the two were at ${when}, when this was planned.`);
-  const answer = await checkSituation(situation);
+  const answer = await checkSituation(bodyOf(situation));
   if (answer.kind === "refused") return missing(inPageUnits(answer.sentence));
   const found = answer.value;
   if (found.status === "no_plan")

@@ -5,6 +5,8 @@ import { PlanNumbers } from "../panels/plan";
 import type { Actions, Session } from "../session";
 import { SituationForm } from "./form";
 import { Gallery } from "./gallery-panel";
+import { OthersForm } from "./others-form";
+import { Remedies } from "./remedies";
 import { TakeAlong } from "./take-along";
 import { twoTimes } from "./two-times";
 
@@ -19,8 +21,10 @@ export function MapBench({ session, actions }: { session: Session; actions: Acti
       <div class="panels">
         <div class="column">
           <SituationForm map={map} />
+          <OthersForm map={map} />
         </div>
         <div class="column numbers">
+          <Remedies map={map} />
           <PlanNumbers session={map.reading} {...twoTimes(map.reading.answered.value)} />
         </div>
         <div class="column lists">

@@ -1,18 +1,19 @@
 /** The situation in numbers: all that the map shows, to be typed. */
 
 import { Choice, Panel } from "../parts";
-import { KT, NM } from "../units";
-import type { IntentPiece, TurnPiece } from "../wire";
-import { type Editor, edit } from "./editor";
+import { FT, KT, NM } from "../units";
+import type { IntentPiece, LevelChange, LocalLeader, TurnPiece } from "../wire";
+import { edit } from "./editing";
+import type { Editor } from "./editor";
 import { Field, type FieldProps } from "./field";
-import { BOUNDS, MOST_PIECES, type Situation } from "./situation";
+import { BOUNDS, type Declared, MOST_PIECES, type Situation } from "./situation";
 
 /** A number of the situation: where it may lie, and what typing it makes of its part. */
-interface Numbered<Part> extends Omit<FieldProps, "change"> {
+export interface Numbered<Part> extends Omit<FieldProps, "change"> {
   readonly part: (typed: number) => Part;
 }
 
-function Fields<Part>(props: {
+export function Fields<Part>(props: {
   numbers: readonly Numbered<Part>[];
   change: (part: Part, hand: unknown) => void;
 }) {
@@ -25,7 +26,7 @@ function Fields<Part>(props: {
   ));
 }
 
-const TENTHS = { unit: "NM", decimals: 1 } as const;
+export const TENTHS = { unit: "NM", decimals: 1 } as const;
 const HEADINGS = [0, 360] as const;
 const PLACES = [-539, 539] as const;
 const SPEEDS = [Math.round(BOUNDS.tas[0] / KT), Math.round(BOUNDS.tas[1] / KT)] as const;
@@ -40,7 +41,17 @@ export function SituationForm({ map }: { map: Editor }) {
     <Panel name="situation" title="Situation">
       <AircraftFields map={map} who="pursuer" />
       <AircraftFields map={map} who="leader" />
-      <IntentFields map={map} />
+      <IntentFields
+        name="Leader"
+        aircraft={map.reading.situation.value.leader}
+        change={(next, hand) =>
+          edit(
+            map,
+            (now) => ({ ...now, leader: { ...now.leader, intent: next(now.leader.intent) } }),
+            hand,
+          )
+        }
+      />
       <fieldset class="fields">
         <legend>Spacing and wind</legend>
         <Fields
@@ -110,14 +121,21 @@ function AircraftFields({ map, who }: { map: Editor; who: Who }) {
           edit(map, (now) => ({ ...now, [who]: { ...now[who], ...part } }), hand)
         }
       />
+      <LevelField
+        name={name}
+        altitude={aircraft.altitude_m ?? null}
+        change={(altitude_m, hand) =>
+          edit(map, (now) => ({ ...now, [who]: { ...now[who], altitude_m } }), hand)
+        }
+      />
     </fieldset>
   );
 }
 
-function placeAndSpeed(
+export function placeAndSpeed(
   name: string,
-  { x_m, y_m, heading_deg, tas_mps }: Situation[Who],
-): Numbered<Partial<Situation["pursuer"]>>[] {
+  { x_m, y_m, heading_deg, tas_mps }: Omit<LocalLeader, "intent">,
+): Numbered<Partial<Omit<LocalLeader, "intent">>>[] {
   return [
     {
       ...TENTHS,
@@ -167,23 +185,80 @@ function bankOf(name: string, bank: number): Numbered<Partial<Situation["pursuer
   };
 }
 
-/** What the leader has declared, piece by piece; what follows the last is flown for ever. */
-function IntentFields({ map }: { map: Editor }) {
-  const { intent, heading_deg } = map.reading.situation.value.leader;
-  const change = (next: (pieces: IntentPiece[]) => IntentPiece[], hand: unknown = {}) =>
-    edit(
-      map,
-      (now) => ({ ...now, leader: { ...now.leader, intent: next(now.leader.intent) } }),
-      hand,
+/** The level that is entered first [m], and how a new change of level goes on from there. */
+const FIRST_LEVEL = 310;
+const LEVELS = [0, Math.floor(BOUNDS.altitude[1] / FT / 100)] as const;
+const CHANGE = { by: -2000 * FT, rate: 8 } as const;
+
+/** The level of an aircraft, where it is known: else its height keeps nothing apart. */
+export function LevelField(props: {
+  name: string;
+  altitude: number | null;
+  change: (altitude: number | null, hand?: unknown) => void;
+}) {
+  const { name, altitude, change } = props;
+  if (altitude === null)
+    return (
+      <button
+        type="button"
+        class="quiet level"
+        onClick={() => change(FIRST_LEVEL * 100 * FT)}
+        aria-label={`${name}: give its level`}
+      >
+        + Level
+      </button>
     );
+  return (
+    <>
+      <Fields
+        numbers={[levelNumber(`${name}: flight level`, "FL", altitude)]}
+        change={(level, hand) => change(level, hand)}
+      />
+      <button
+        type="button"
+        class="quiet level"
+        onClick={() => change(null)}
+        aria-label={`${name}: forget its level`}
+      >
+        ×
+      </button>
+    </>
+  );
+}
+
+function levelNumber(label: string, short: string, altitude: number): Numbered<number> {
+  return {
+    label,
+    short,
+    unit: "",
+    step: 10,
+    value: altitude / FT / 100,
+    bounds: LEVELS,
+    part: (level) => level * 100 * FT,
+  };
+}
+
+/** What an aircraft has declared, piece by piece; what follows the last is flown for ever. */
+export function IntentFields(props: {
+  /** Whose. */
+  name: string;
+  aircraft: Declared;
+  change: (next: (pieces: readonly IntentPiece[]) => IntentPiece[], hand?: unknown) => void;
+}) {
+  const { name, aircraft, change } = props;
+  const { intent, heading_deg, altitude_m } = aircraft;
   const turn: IntentPiece = {
     turn_to_heading_deg: (Math.round(heading_deg) + 45) % 360,
     direction: "right",
     bank_deg: 20,
   };
+  const descent: IntentPiece = {
+    level_change: { to_altitude_m: (altitude_m ?? 0) + CHANGE.by, rate_mps: CHANGE.rate },
+  };
+  const isFull = intent.length >= MOST_PIECES;
   return (
     <fieldset class="fields intent">
-      <legend class="key-leader">Leader declares</legend>
+      <legend class={name === "Leader" ? "key-leader" : ""}>{name} declares</legend>
       {intent.length === 0 && <p class="hint">Nothing: its intent is not known.</p>}
       <ol>
         {intent.map((piece, i) => (
@@ -191,6 +266,7 @@ function IntentFields({ map }: { map: Editor }) {
             <Piece
               piece={piece}
               number={i + 1}
+              name={name === "Leader" ? "" : `${name}, `}
               change={(next, hand) => change((pieces) => pieces.with(i, next), hand)}
             />
             <button
@@ -208,7 +284,7 @@ function IntentFields({ map }: { map: Editor }) {
         <button
           type="button"
           class="grow"
-          disabled={intent.length >= MOST_PIECES}
+          disabled={isFull}
           onClick={() => change((pieces) => [...pieces, { straight_s: 120 }])}
         >
           + Straight
@@ -216,11 +292,21 @@ function IntentFields({ map }: { map: Editor }) {
         <button
           type="button"
           class="grow"
-          disabled={intent.length >= MOST_PIECES}
+          disabled={isFull}
           onClick={() => change((pieces) => [...pieces, turn])}
         >
           + Turn
         </button>
+        {altitude_m != null && (
+          <button
+            type="button"
+            class="grow"
+            disabled={isFull}
+            onClick={() => change((pieces) => [...pieces, descent])}
+          >
+            + Level
+          </button>
+        )}
       </div>
     </fieldset>
   );
@@ -229,12 +315,21 @@ function IntentFields({ map }: { map: Editor }) {
 function Piece(props: {
   piece: IntentPiece;
   number: number;
+  /** Of whom, where that is not the leader. */
+  name: string;
   change: (piece: IntentPiece, hand?: unknown) => void;
 }) {
   const { piece, number, change } = props;
-  const name = `Piece ${number}`;
+  const name = `${props.name}${props.name === "" ? "Piece" : "piece"} ${number}`;
   if ("straight_s" in piece)
     return <Fields numbers={[durationOf(name, piece.straight_s)]} change={change} />;
+  if ("level_change" in piece)
+    return (
+      <Fields
+        numbers={levelNumbers(name, piece.level_change)}
+        change={(part, hand) => change({ level_change: { ...piece.level_change, ...part } }, hand)}
+      />
+    );
   return (
     <>
       <Choice
@@ -262,6 +357,22 @@ function durationOf(name: string, seconds: number): Numbered<IntentPiece> {
     bounds: BOUNDS.piece,
     part: (typed) => ({ straight_s: typed }),
   };
+}
+
+function levelNumbers(name: string, change: LevelChange): Numbered<Partial<LevelChange>>[] {
+  const to = levelNumber(`${name}: to flight level`, "to FL", change.to_altitude_m);
+  return [
+    { ...to, part: (level) => ({ to_altitude_m: to.part(level) }) },
+    {
+      label: `${name}: rate of climb or descent`,
+      short: "at",
+      unit: "ft/min",
+      step: 100,
+      value: (change.rate_mps / FT) * 60,
+      bounds: [Math.ceil((BOUNDS.rate[0] / FT) * 60), Math.floor((BOUNDS.rate[1] / FT) * 60)],
+      part: (rate) => ({ rate_mps: (rate * FT) / 60 }),
+    },
+  ];
 }
 
 function turnNumbers(name: string, turn: TurnPiece): Numbered<Partial<TurnPiece>>[] {

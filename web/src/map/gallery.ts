@@ -2,7 +2,8 @@
 
 import { KT, NM } from "../units";
 import type { IntentPiece } from "../wire";
-import { FIRST, type Situation, settle } from "./situation";
+import { FIRST } from "./first";
+import { type Situation, settle } from "./situation";
 
 export interface Entry {
   readonly name: string;
@@ -52,6 +53,8 @@ function lay({
       tas_mps: leader[3] * KT,
       intent: [...intent],
     },
+    traffic: [],
+    cells: [],
     slot_distance_m: d * NM,
     min_separation_m: min * NM,
     wind: { from_deg: wind[0], speed_mps: wind[1] * KT },
@@ -149,6 +152,8 @@ export const GALLERY: readonly Entry[] = [
         max_bank_deg: 25,
       },
       leader: { x_m: -76_480, y_m: -64_682, heading_deg: 19.9, tas_mps: 168.51, intent: [] },
+      traffic: [],
+      cells: [],
       slot_distance_m: 10_000,
       min_separation_m: 9260,
       wind: { from_deg: 0, speed_mps: 0 },

@@ -1,8 +1,10 @@
 /** Fingers, mouse and wheel on the map: a handle is dragged, the ground is moved, two fingers zoom. */
 
 import type { Place, Point, View } from "../nd/view";
-import { type Editor, edit, pan, zoom } from "./editor";
+import { edit } from "./editing";
+import { type Editor, pan, zoom } from "./editor";
 import { dragHandle, type HandleName, handlePoint, handlesOf, keyHandle } from "./handles";
+import { otherPart, removeOther } from "./other-handles";
 
 /** Two fingers step to the next range when they have moved apart, or together, by so much. */
 const PINCH = 1.3;
@@ -72,8 +74,9 @@ export function followGestures(glass: SVGSVGElement, map: Editor, view: View): (
       return;
     }
     const at = handlePoint(grip, map.situation.peek(), view.layout.peek(), middle());
-    // The ring is held where it is touched; all else keeps its distance from the finger.
-    const offset = grip === "ring" ? { x: 0, y: 0 } : { x: at.x - point.x, y: at.y - point.y };
+    // The ring, or a cell's edge, is held where it is touched; all else keeps its distance from the finger.
+    const isEdge = grip === "ring" || otherPart(grip)?.part === "cell-edge";
+    const offset = isEdge ? { x: 0, y: 0 } : { x: at.x - point.x, y: at.y - point.y };
     held = { name: grip, offset };
     glass
       .querySelector<SVGGElement>(`.grip[data-handle="${grip}"]`)
@@ -125,7 +128,11 @@ export function followGestures(glass: SVGSVGElement, map: Editor, view: View): (
   const press = (event: KeyboardEvent) => {
     const grip = handleOf(event.target);
     if (grip === null || event.ctrlKey || event.altKey || event.metaKey) return;
-    const next = keyHandle(grip, map.situation.peek(), event.key, event.shiftKey);
+    const other = otherPart(grip);
+    const isRemoved = other !== null && (event.key === "Delete" || event.key === "Backspace");
+    const next = isRemoved
+      ? removeOther(other, map.situation.peek())
+      : keyHandle(grip, map.situation.peek(), event.key, event.shiftKey);
     if (next === null) return;
     event.preventDefault();
     event.stopPropagation();

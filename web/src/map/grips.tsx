@@ -4,8 +4,10 @@ import { useComputed } from "@preact/signals";
 import type { LayerProps } from "../nd/layer";
 import { ink } from "../nd/style";
 import { type Point, placeAt, project, round } from "../nd/view";
+import type { Colour } from "../store/colours";
 import type { Editor } from "./editor";
 import { type HandleName, handlePoint, handlesOf } from "./handles";
+import { type OtherHandle, otherPart } from "./other-handles";
 import { sayHandle } from "./say-handle";
 import { firstTurn } from "./turn-handles";
 
@@ -23,15 +25,32 @@ const COLOURS = {
   own: "ownship",
   "own-heading": "ownship",
   wind: "value",
-} as const satisfies Record<HandleName, string>;
+} as const satisfies Record<Exclude<HandleName, OtherHandle>, string>;
+
+function colourOf(name: HandleName): Colour {
+  if (name in COLOURS) return COLOURS[name as keyof typeof COLOURS];
+  return "leader";
+}
+
 /** What the knob of a heading stands before. */
 const OWNERS: Partial<Record<HandleName, HandleName>> = {
   "own-heading": "own",
   "leader-heading": "leader",
   "turn-heading": "turn",
 };
+
+function ownerOf(name: HandleName): HandleName | undefined {
+  const other = otherPart(name);
+  if (other?.part === "traffic-heading") return `traffic/${other.number}`;
+  return OWNERS[name];
+}
+
 /** Those that are symbols already need no knob. */
 const BARE: readonly HandleName[] = ["own", "leader", "slot"];
+
+function isBare(name: HandleName): boolean {
+  return BARE.includes(name) || otherPart(name)?.part === "traffic";
+}
 
 export function Grips({ map, view }: { map: Editor; view: LayerProps["view"] }) {
   const names = useComputed(() => handlesOf(map.situation.value));
@@ -58,7 +77,7 @@ function Grip({ map, view, name }: GripProps) {
   });
   const place = useComputed(() => placeAt(point.value));
   const stick = useComputed(() => {
-    const owner = OWNERS[name];
+    const owner = ownerOf(name);
     if (owner === undefined) return "";
     const middle = view.pose.value ?? { x_m: 0, y_m: 0, heading_deg: 0 };
     const { value } = map.situation;
@@ -71,7 +90,7 @@ function Grip({ map, view, name }: GripProps) {
   });
   const said = useComputed(() => sayHandle(name, map.situation.value));
   const { label, text, value, least, most } = said.value;
-  const colour = ink(COLOURS[name]);
+  const colour = ink(colourOf(name));
   return (
     <g
       class="grip"
@@ -95,7 +114,7 @@ function Grip({ map, view, name }: GripProps) {
         />
       )}
       <circle class="grip-touch" r={name === "wind" ? KNOB + 6 : TOUCH} />
-      {!BARE.includes(name) && (
+      {!isBare(name) && (
         <circle
           class="nd-hollow"
           r={name === "wind" ? 6 : KNOB}

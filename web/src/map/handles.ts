@@ -12,6 +12,14 @@ import {
 } from "../nd/view";
 import { DEG, KT, NM, wrap360 } from "../units";
 import { leaderRoute, slotNow } from "./leader-route";
+import {
+  dragOther,
+  keyOther,
+  type OtherHandle,
+  otherHandles,
+  otherPart,
+  pointOfOther,
+} from "./other-handles";
 import { type Situation, stepMiles } from "./situation";
 import { beginTurnAt, delayTurn, firstTurn, leadTurnTo, leadTurnTowards } from "./turn-handles";
 
@@ -26,13 +34,16 @@ export const HANDLES = [
   "own-heading",
   "wind",
 ] as const;
-export type HandleName = (typeof HANDLES)[number];
+type OwnHandle = (typeof HANDLES)[number];
+export type HandleName = OwnHandle | OtherHandle;
 
 /** Those that a situation has: a leader that declares no turn has none to be dragged. */
 export function handlesOf(situation: Situation): readonly HandleName[] {
-  return firstTurn(situation) === null
-    ? HANDLES.filter((name) => name !== "turn" && name !== "turn-heading")
-    : HANDLES;
+  const own =
+    firstTurn(situation) === null
+      ? HANDLES.filter((name) => name !== "turn" && name !== "turn-heading")
+      : HANDLES;
+  return [...otherHandles(situation), ...own];
 }
 
 /** How far before an aircraft the handle of its heading stands [px]. */
@@ -56,7 +67,9 @@ export function handlePoint(
 ): Point {
   const { pursuer, leader, wind } = situation;
   const at = (place: Place) => project(layout, middle, place);
-  switch (name) {
+  const other = otherPart(name);
+  if (other !== null) return pointOfOther(other, situation, { layout, middle, stick: STICK });
+  switch (name as OwnHandle) {
     case "own":
       return at(pursuer);
     case "leader":
@@ -101,7 +114,9 @@ export function dragHandle(
 ): Situation {
   const { pursuer, leader } = situation;
   const to = { x_m: place.x_m, y_m: place.y_m };
-  switch (name) {
+  const other = otherPart(name);
+  if (other !== null) return dragOther(other, situation, place);
+  switch (name as OwnHandle) {
     case "own":
       return { ...situation, pursuer: { ...pursuer, ...to } };
     case "leader":
@@ -187,7 +202,9 @@ export function keyHandle(
     heading_deg: Math.round(aircraft.heading_deg) + (right + up) * (isFine ? 1 : 5),
   });
   const miles = (right + up) * (isFine ? 0.1 : 0.5);
-  switch (name) {
+  const other = otherPart(name);
+  if (other !== null) return keyOther(other, situation, arrow, isFine);
+  switch (name as OwnHandle) {
     case "own":
       return { ...situation, pursuer: move(pursuer) };
     case "leader":

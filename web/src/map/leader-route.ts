@@ -3,22 +3,31 @@
 import { pointAlong, type Vector, velocity } from "../geometry";
 import { DEG, wrap360 } from "../units";
 import type { PathPoint, PathSegment, TurnSegment } from "../wire";
-import type { Situation } from "./situation";
+import type { Declared, Situation } from "./situation";
 
 /** Gravity [m/s²]. */
 const G = 9.80665;
 /** What follows the last piece is flown on for ever: it is drawn for so long [s]. */
 const FINAL = 7200;
 
-/** The declared pieces one after another, each with its wind, and the final leg. */
-export function leaderRoute({ leader }: Situation, wind: Vector): PathSegment[] {
+/** The leader's declared pieces one after another, each with its wind, and the final leg. */
+export function leaderRoute({ leader }: Pick<Situation, "leader">, wind: Vector): PathSegment[] {
+  return declaredRoute(leader, wind);
+}
+
+/** The same of any aircraft that says what it will fly. Changes of level take no time of their own. */
+export function declaredRoute(
+  { x_m, y_m, heading_deg, tas_mps, intent }: Declared,
+  wind: Vector,
+): PathSegment[] {
   const segments: PathSegment[] = [];
-  let at: PathPoint = { t_s: 0, x_m: leader.x_m, y_m: leader.y_m, heading_deg: leader.heading_deg };
-  for (const piece of [...leader.intent, { straight_s: FINAL }]) {
+  let at: PathPoint = { t_s: 0, x_m, y_m, heading_deg };
+  for (const piece of [...intent, { straight_s: FINAL }]) {
+    if ("level_change" in piece) continue;
     const segment =
       "straight_s" in piece
-        ? straight(at, leader.tas_mps, piece.straight_s, wind)
-        : turn(at, leader.tas_mps, piece, wind);
+        ? straight(at, tas_mps, piece.straight_s, wind)
+        : turn(at, tas_mps, piece, wind);
     segments.push(segment);
     at = segment.end;
   }

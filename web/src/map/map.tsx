@@ -10,6 +10,7 @@ import { Compass } from "./compass";
 import type { Editor } from "./editor";
 import { followGestures } from "./gestures";
 import { Grips } from "./grips";
+import { nearestLabels, OthersLayer } from "./others-layer";
 import { AreaEnd, MapMessage, OwnShipThere, WindDial } from "./symbols";
 import "./map.css";
 
@@ -27,7 +28,9 @@ export function mapView(
   // Labels find their places anew with each answer: there is no other pace on a map that stands still.
   let answers = 0;
   const beat = computed(() => {
-    void [map.shown.picture.value.proposed, map.range.value, map.area?.value, map.hasArea?.value];
+    const { proposed, traffic, cells, state } = map.shown.picture.value;
+    void [proposed, traffic.length, cells.length, state];
+    void [map.range.value, map.area?.value, map.hasArea?.value];
     answers += 1;
     return String(answers);
   });
@@ -39,7 +42,10 @@ export function PlanMap({ map }: { map: Editor }) {
   const label = useComputed(
     () => `Map, north up, ring at ${map.range.value} nautical miles. ${map.shown.words.value}`,
   );
-  const more = useComputed(() => areaLabels(map, view));
+  const more = useComputed(() => {
+    const { labels, points } = areaLabels(map, view);
+    return { points, labels: [...nearestLabels(map, view), ...labels] };
+  });
   const glass = useRef<SVGSVGElement>(null);
   useEffect(() => {
     const { current } = glass;
@@ -70,6 +76,7 @@ export function PlanMap({ map }: { map: Editor }) {
             {MAP_LAYERS.map((Layer) => (
               <Layer key={Layer.name} shown={map.shown} view={view} />
             ))}
+            <OthersLayer map={map} view={view} />
             <OwnShipThere shown={map.shown} view={view} />
           </g>
           <Labels shown={map.shown} view={view} more={more} />

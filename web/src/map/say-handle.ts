@@ -3,6 +3,7 @@
 import type { Place } from "../nd/view";
 import { formatClock, formatHeading, formatKnots, formatMiles, NM } from "../units";
 import type { HandleName } from "./handles";
+import { type OtherHandle, otherPart, sayOther, side } from "./other-handles";
 import { BOUNDS, MOST_PIECES, type Situation } from "./situation";
 import { firstTurn, straightBefore } from "./turn-handles";
 
@@ -39,7 +40,9 @@ export function sayHandle(name: HandleName, situation: Situation): Said {
     least: -540,
     most: 540,
   });
-  switch (name) {
+  const other = otherPart(name);
+  if (other !== null) return sayOther(other, situation);
+  switch (name as Exclude<HandleName, OtherHandle>) {
     case "own":
       return place("Own ship's place", pursuer);
     case "leader":
@@ -79,8 +82,4 @@ export function sayHandle(name: HandleName, situation: Situation): Said {
         most: Number(formatKnots(BOUNDS.wind[1])),
       };
   }
-}
-
-function side(length: number, positive: string, negative: string): string {
-  return `${formatMiles(Math.abs(length))} miles ${length < 0 ? negative : positive}`;
 }

@@ -2,29 +2,40 @@
 
 import { KT, NM, wrap360 } from "../units";
 import type { IntentPiece, LocalLeader, LocalPursuer, SituationBody, WindBody } from "../wire";
+import { bodiesOf } from "./others";
+
+/** An aircraft that says what it will fly; without a level it is at any. */
+export interface Declared extends Omit<LocalLeader, "intent"> {
+  readonly intent: readonly IntentPiece[];
+}
+
+/** One of the others; without a minimum of its own, that of the situation is kept to it. */
+export interface MapTraffic extends Declared {
+  readonly ident: string;
+  readonly min_separation_m?: number | null;
+}
+
+/** A weather cell: a disc, at t = 0. */
+export interface MapCell {
+  readonly ident: string;
+  readonly x_m: number;
+  readonly y_m: number;
+  readonly radius_m: number;
+  /** How fast it moves over the ground, and how fast it grows. */
+  readonly east_mps: number;
+  readonly north_mps: number;
+  readonly growth_mps: number;
+}
 
 export interface Situation {
   readonly pursuer: LocalPursuer;
-  readonly leader: Required<LocalLeader>;
+  readonly leader: Declared;
+  readonly traffic: readonly MapTraffic[];
+  readonly cells: readonly MapCell[];
   readonly slot_distance_m: number;
   readonly min_separation_m: number;
   readonly wind: WindBody;
 }
-
-/** The paper's Fig. 6b: what a map shows that was given nothing else. */
-export const FIRST: Situation = {
-  pursuer: { x_m: -40_000, y_m: 40_000, heading_deg: 90, tas_mps: 240, max_bank_deg: 25 },
-  leader: {
-    x_m: 0,
-    y_m: 0,
-    heading_deg: 90,
-    tas_mps: 200,
-    intent: [{ straight_s: 820 }, { turn_to_heading_deg: 135, direction: "right", bank_deg: 25 }],
-  },
-  slot_distance_m: 10_000,
-  min_separation_m: 9260,
-  wind: { from_deg: 0, speed_mps: 0 },
-};
 
 /** Accepted ranges: those of the planner, the speeds rounded inward to whole knots [m, m/s, °]. */
 export const BOUNDS = {
@@ -34,9 +45,16 @@ export const BOUNDS = {
   distance: [0, 200_000],
   wind: [0, 150],
   piece: [0, 86_400],
+  altitude: [-500, 20_000],
+  rate: [0.5, 60],
+  radius: [1, 500_000],
+  growth: [0, 50],
+  drift: [-150, 150],
 } as const;
 /** Most pieces an intent may have. */
 export const MOST_PIECES = 20;
+/** Most other aircraft and cells together. */
+export const MOST_OTHERS = 100;
 
 export function clamp(value: number, [low, high]: readonly [number, number]): number {
   return Math.min(high, Math.max(low, value));
@@ -44,7 +62,7 @@ export function clamp(value: number, [low, high]: readonly [number, number]): nu
 
 /** The same within its bounds: angles in [0, 360), D no less than d_min, what is finer than a metre left out. */
 export function settle(situation: Situation): Situation {
-  const { pursuer, leader, wind } = situation;
+  const { pursuer, leader, traffic, cells, wind } = situation;
   const least = clamp(situation.min_separation_m, BOUNDS.distance);
   return {
     pursuer: {
@@ -55,6 +73,23 @@ export function settle(situation: Situation): Situation {
       ...settleAircraft(leader),
       intent: leader.intent.slice(0, MOST_PIECES).map(settlePiece),
     },
+    traffic: traffic.map((each) => {
+      const { min_separation_m: own, ...rest } = settleAircraft(each);
+      return {
+        ...rest,
+        intent: each.intent.slice(0, MOST_PIECES).map(settlePiece),
+        ...(own != null && { min_separation_m: fine(clamp(own, BOUNDS.distance)) }),
+      };
+    }),
+    cells: cells.map((each) => ({
+      ident: each.ident,
+      x_m: fine(clamp(each.x_m, BOUNDS.position)),
+      y_m: fine(clamp(each.y_m, BOUNDS.position)),
+      radius_m: Math.max(1, fine(clamp(each.radius_m, BOUNDS.radius))),
+      east_mps: hundredth(clamp(each.east_mps, BOUNDS.drift)),
+      north_mps: hundredth(clamp(each.north_mps, BOUNDS.drift)),
+      growth_mps: hundredth(clamp(each.growth_mps, BOUNDS.growth)),
+    })),
     min_separation_m: fine(least),
     slot_distance_m: Math.max(fine(least), fine(clamp(situation.slot_distance_m, BOUNDS.distance))),
     wind: {
@@ -64,11 +99,11 @@ export function settle(situation: Situation): Situation {
   };
 }
 
-function settleAircraft<T extends Pick<LocalLeader, "x_m" | "y_m" | "heading_deg" | "tas_mps">>(
-  aircraft: T,
-): T {
+function settleAircraft<T extends Omit<LocalLeader, "intent">>(aircraft: T): T {
+  const { altitude_m, ...rest } = aircraft;
   return {
-    ...aircraft,
+    ...(rest as T),
+    ...(altitude_m != null && { altitude_m: fine(clamp(altitude_m, BOUNDS.altitude)) }),
     x_m: fine(clamp(aircraft.x_m, BOUNDS.position)),
     y_m: fine(clamp(aircraft.y_m, BOUNDS.position)),
     heading_deg: settleAngle(aircraft.heading_deg),
@@ -78,6 +113,16 @@ function settleAircraft<T extends Pick<LocalLeader, "x_m" | "y_m" | "heading_deg
 
 function settlePiece(piece: IntentPiece): IntentPiece {
   if ("straight_s" in piece) return piece;
+  if ("level_change" in piece) {
+    const { to_altitude_m, rate_mps, ...how } = piece.level_change;
+    return {
+      level_change: {
+        to_altitude_m: fine(clamp(to_altitude_m, BOUNDS.altitude)),
+        rate_mps: hundredth(clamp(rate_mps, BOUNDS.rate)),
+        ...how,
+      },
+    };
+  }
   return { ...piece, turn_to_heading_deg: settleAngle(piece.turn_to_heading_deg) };
 }
 
@@ -99,60 +144,20 @@ function hundredth(value: number): number {
 }
 
 /** As `POST /plans` takes it: what is empty is left out. */
-export function bodyOf({ leader: { intent, ...leader }, wind, ...rest }: Situation): SituationBody {
+export function bodyOf(situation: Situation): SituationBody {
+  const {
+    leader: { intent, ...leader },
+    wind,
+    traffic,
+    cells,
+    ...rest
+  } = situation;
   return {
     ...rest,
+    ...bodiesOf({ traffic, cells }),
     leader: intent.length > 0 ? { ...leader, intent: [...intent] } : leader,
     ...(wind.speed_mps > 0 && { wind }),
   };
-}
-
-/** The same as a program. */
-export function pythonOf(situation: Situation): string {
-  const { pursuer, leader, wind } = situation;
-  const place = (
-    name: string,
-    { x_m, y_m, heading_deg, tas_mps }: typeof leader | typeof pursuer,
-  ) => `${name}(\n    x=${x_m}, y=${y_m}, heading=radians(${heading_deg}), tas=${tas_mps}`;
-  const pieces = leader.intent.map((piece) =>
-    "straight_s" in piece
-      ? `FlyStraight(duration=${piece.straight_s})`
-      : `TurnTo(heading=radians(${piece.turn_to_heading_deg}), turn=${piece.direction.toUpperCase()}, ` +
-        `bank=radians(${piece.bank_deg}))`,
-  );
-  const used = (names: Record<string, boolean>) => Object.keys(names).filter((each) => names[each]);
-  const turns = leader.intent.flatMap((piece) => ("direction" in piece ? [piece.direction] : []));
-  const names = used({
-    LEFT: turns.includes("left"),
-    RIGHT: turns.includes("right"),
-    FlyStraight: leader.intent.some((piece) => "straight_s" in piece),
-    Leader: true,
-    Pursuer: true,
-    Situation: true,
-    TurnTo: turns.length > 0,
-    plan: true,
-    wind_from: wind.speed_mps > 0,
-  });
-  const intent =
-    pieces.length > 0 ? `,\n    intent=(\n        ${pieces.join(",\n        ")},\n    )` : "";
-  const air =
-    wind.speed_mps > 0 ? `\n    wind=wind_from(radians(${wind.from_deg}), ${wind.speed_mps}),` : "";
-  return `from math import radians
-
-from relguide import ${names.join(", ")}
-
-own = ${place("Pursuer", pursuer)}, max_bank=radians(${pursuer.max_bank_deg})
-)
-leader = ${place("Leader", leader)}${intent},
-)
-situation = Situation(
-    pursuer=own,
-    leader=leader,
-    slot_distance=${situation.slot_distance_m},
-    min_separation=${situation.min_separation_m},${air}
-)
-print(plan(situation))
-`;
 }
 
 /** A distance in whole tenths of a mile, as a dial or a key steps it [m]. */

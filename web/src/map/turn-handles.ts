@@ -11,8 +11,9 @@ import { BOUNDS, clamp, MOST_PIECES, type Situation } from "./situation";
 const TURNS_OVER = 90;
 
 interface FirstTurn {
-  /** Its number among the pieces. */
+  /** Its number among the pieces, and that of the straight before it; −1 if there is none. */
   readonly index: number;
+  readonly straight: number;
   readonly piece: TurnPiece;
   /** Where its straight begins, where it begins, and where it ends. */
   readonly before: PathPoint;
@@ -27,9 +28,12 @@ export function firstTurn(situation: Situation): FirstTurn | null {
   const piece = intent[index];
   if (piece === undefined || !("direction" in piece)) return null;
   const route = leaderRoute(situation, windVector(situation.wind));
-  const [straight, turn] = [route[Math.max(0, index - 1)], route[index]];
-  if (straight === undefined || turn === undefined) return null;
-  return { index, piece, before: straight.start, begins: turn.start, ends: turn.end };
+  // the route has no segment for a change of level
+  const flown = intent.slice(0, index).filter((each) => !("level_change" in each)).length;
+  const straight = intent.slice(0, index).findLastIndex((each) => "straight_s" in each);
+  const [before, turn] = [route[Math.max(0, flown - 1)], route[flown]];
+  if (before === undefined || turn === undefined) return null;
+  return { index, straight, piece, before: before.start, begins: turn.start, ends: turn.end };
 }
 
 /** How long the leader flies straight before its first turn [s]. */
@@ -61,9 +65,9 @@ function withStraight(situation: Situation, duration: number): Situation {
   const { intent } = situation.leader;
   if (turn === null) return situation;
   const straight: IntentPiece = { straight_s: clamp(duration, BOUNDS.piece) };
-  const isThere = turn.index > 0;
+  const isThere = turn.straight >= 0;
   if (!isThere && (duration <= 0 || intent.length >= MOST_PIECES)) return situation;
-  const pieces = isThere ? intent.with(turn.index - 1, straight) : [straight, ...intent];
+  const pieces = isThere ? intent.with(turn.straight, straight) : [straight, ...intent];
   return { ...situation, leader: { ...situation.leader, intent: pieces } };
 }
 

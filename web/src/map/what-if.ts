@@ -21,6 +21,7 @@ import type {
   PlanCard,
 } from "../wire";
 import { leaderRoute, slotNow } from "./leader-route";
+import { cellCard } from "./others";
 import type { Situation } from "./situation";
 
 const OWN = "OWN";
@@ -87,8 +88,13 @@ function cardOf(situation: Situation): PairCard {
     wind: situation.wind,
     step_s: 0,
     seed: 0,
-    others: [],
-    cells: [],
+    others: situation.traffic.map(({ ident }) => ({
+      ident,
+      aircraft_type: "",
+      max_bank_deg: 0,
+      follows: "",
+    })),
+    cells: situation.cells.map(cellCard),
   };
 }
 
@@ -103,7 +109,7 @@ function sampleOf(situation: Situation, slot: PathPoint, opens: number): PairSam
     t_s: 0,
     pursuer: own,
     leader: other,
-    others: [],
+    others: situation.traffic.map((each) => aircraft(each.ident, each, situation)),
     mode: "heading",
     reference: { kind: "hold_heading", heading_deg: pursuer.heading_deg },
     commanded_tas_mps: pursuer.tas_mps,
@@ -123,7 +129,7 @@ function sampleOf(situation: Situation, slot: PathPoint, opens: number): PairSam
   };
 }
 
-type Moving = Pick<LocalLeader, "x_m" | "y_m" | "heading_deg" | "tas_mps">;
+type Moving = Omit<LocalLeader, "intent">;
 
 function ground({ heading_deg, tas_mps }: Moving, { wind }: Situation): { x: number; y: number } {
   const [psi, air] = [(heading_deg * Math.PI) / 180, windVector(wind)];
@@ -142,8 +148,16 @@ function aircraft(ident: string, moving: Moving, situation: Situation): Aircraft
     turn_rate_degps: 0,
     tas_mps: moving.tas_mps,
     ground_speed_mps: Math.hypot(x, y),
-    altitude_m: 0,
+    altitude_m: levelOf(ident, moving, situation),
   };
+}
+
+/** Where a level is not known, what is over own ship is not: that of the two is then one. */
+function levelOf(ident: string, { altitude_m }: Moving, { pursuer, leader }: Situation): number {
+  const own = pursuer.altitude_m ?? null;
+  if (ident === OWN) return own ?? 0;
+  if (ident === LEADER) return own === null ? 0 : (leader.altitude_m ?? own);
+  return own === null ? Number.NaN : (altitude_m ?? Number.NaN);
 }
 
 function proposalOf(

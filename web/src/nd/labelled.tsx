@@ -67,6 +67,9 @@ const IDS = [
   ...[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11].map(regionId),
 ];
 
+/** Where a plan is nearest to others, on the map. */
+const NEAREST = [0, 1, 2].map((i) => `nearest ${i}`);
+
 /** What a label names, as words.ts calls it, by the beginning of its id. */
 const NAMED = {
   capture: "capture",
@@ -78,6 +81,7 @@ const NAMED = {
   "traffic at the edge": "traffic-edge",
   traffic: "traffic",
   weather: "weather",
+  nearest: "nearest",
   region: "area",
   T: "turns",
 } as const;
@@ -106,6 +110,7 @@ export function Labels(props: LayerProps & { more?: ReadonlySignal<More> }) {
   const ids = [
     ...IDS,
     ...others.cells.map(weatherId),
+    ...NEAREST,
     ...others.traffic.flatMap((ident) => [trafficId(ident), trafficId(ident, true)]),
   ];
   return <LabelTexts ids={ids} {...useLabels(props, props.more ?? NO_MORE)} />;

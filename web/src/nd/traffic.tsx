@@ -122,6 +122,7 @@ function seenOnMap({ shown, view }: LayerProps, ident: string): Traffic | null {
 }
 
 function hasLevel({ range }: Layout, traffic: Traffic, isChosen: boolean): boolean {
+  if (!Number.isFinite(traffic.height)) return false;
   return range <= LEVELS_UP_TO || traffic.urgency !== "other" || isChosen;
 }
 

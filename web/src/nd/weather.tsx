@@ -11,7 +11,7 @@ import { type Layout, onMap, type Point, project, round, toMap } from "./view";
 const HATCH = 13;
 const MOST_LINES = 60;
 
-const COLOUR: Record<Cell["urgency"], Colour> = {
+export const WEATHER_COLOUR: Record<Cell["urgency"], Colour> = {
   none: "label",
   caution: "caution",
   warning: "alert",
@@ -25,7 +25,7 @@ export function Weather({ shown, view }: LayerProps) {
   return (
     <>
       {cells.value.map((cell) => {
-        const colour = COLOUR[cell.urgency];
+        const colour = WEATHER_COLOUR[cell.urgency];
         const edge = glassEdge(layout.value, cell);
         return (
           <g key={cell.ident} class="nd-weather">
@@ -94,7 +94,7 @@ export function weatherLabels({ shown, view }: LayerProps): Label[] {
       {
         id: weatherId(ident),
         at,
-        lines: [{ text: ident, colour: COLOUR[urgency] }],
+        lines: [{ text: ident, colour: WEATHER_COLOUR[urgency] }],
         side: 0,
         gap: -9, // over its middle
         size: 18,

@@ -73,6 +73,7 @@ export function Poster({ shown, camera, size, turn, zoom }: Props) {
 
 function lookOf({ colour, width, dash, opacity, light }: Stroke) {
   const drawn = colour === "ground-line" ? `var(--${colour})` : ink(colour);
+  if (width === 0 && light === undefined) return { fill: drawn, "fill-opacity": opacity };
   if (light !== undefined)
     return { fill: `color-mix(in srgb, ${drawn} ${Math.round(100 * light)}%, black)` };
   return {

@@ -3,12 +3,15 @@
 import { samplePath, velocity } from "../geometry";
 import { isRound } from "../nd/circle";
 import { LINES, SEPARATION } from "../nd/style";
+import { TRAFFIC_COLOUR } from "../nd/traffic";
 import { onwards, type Place } from "../nd/view";
+import { WEATHER_COLOUR } from "../nd/weather";
 import type { Colour } from "../store/colours";
 import { forecastIndex, pointsAfter } from "../store/forecast";
 import type { Ghost } from "../store/ghost";
 import type { Picture } from "../store/picture";
 import type { TrailPoint } from "../store/trail";
+import { type Cell, edgeOf } from "../store/weather";
 import { FT, NM } from "../units";
 import type { AircraftSample, PathPoint } from "../wire";
 import { airliner } from "./airliner";
@@ -42,6 +45,10 @@ export const LEVEL = 10_000 * FT;
 const HIDDEN = 0.3;
 const FOOT = 900;
 const TICK = 450;
+/** Columns of weather reach so high [m], with chords of so much [deg]; levels this near are one [m]. */
+const CELL_TOP = 13_000;
+const CELL_STEP = 12;
+const LEVEL_FROM = 150;
 /** The gate by the length of an aircraft as it is drawn, and what is left of its edges when it holds one. */
 const GATE = { long: 1.5, wide: 1.3, high: 0.5 } as const;
 const HELD = 0.22;
@@ -73,6 +80,22 @@ export function strokesOf(
     if (d.startsWith("M")) strokes.push({ name, d, ...look });
   };
   const hue = leaderColour(picture);
+  for (const cell of picture.cells) {
+    const { colour, ...look } = cell.urgency === "none" ? LINES.hatch : LINES.cell;
+    const hue = cell.urgency === "none" ? colour : WEATHER_COLOUR[cell.urgency];
+    const { walls, rims } = column(cell, glass);
+    add(`cell-${cell.ident}`, walls, { ...look, colour: hue, width: 0, opacity: 0.22 });
+    add(`cell-rims-${cell.ident}`, rims, { ...look, colour: hue });
+  }
+  for (const { aircraft, ident, urgency } of picture.traffic) {
+    const colour = TRAFFIC_COLOUR[urgency];
+    add(`traffic-drop-${ident}`, dropLine(aircraft, glass), { colour, width: 0.8, dash: "" });
+    add(`traffic-level-${ident}`, levelMark(aircraft, now.pursuer.altitude_m, glass), {
+      colour: "ownship",
+      width: 1,
+      dash: "",
+    });
+  }
   add("own-drop", dropLine(now.pursuer, glass), { colour: "ownship", width: 1, dash: "" });
   if (leader !== null)
     add("leader-drop", dropLine(leader, glass), { colour: hue, width: 1, dash: "" });
@@ -142,6 +165,11 @@ export function strokesOf(
   const both = [
     { name: "own", aircraft: now.pursuer, colour: "ownship" as const },
     ...(leader === null ? [] : [{ name: "leader", aircraft: leader, colour: hue }]),
+    ...picture.traffic.map(({ ident, aircraft, urgency }) => ({
+      name: `traffic-${ident}`,
+      aircraft,
+      colour: TRAFFIC_COLOUR[urgency],
+    })),
     ...(ghost === null
       ? []
       : [{ name: "other", aircraft: ghost.pursuer, colour: LINES.other.colour }]),
@@ -209,6 +237,39 @@ function dropLine(aircraft: High, glass: Glass): string {
     ...ticks,
   ];
   return lines.map((each) => glass.line(each)).join("");
+}
+
+/** Own ship's level over or under another aircraft: a tick, and a line to there; "" where they are level. */
+function levelMark({ x_m, y_m, altitude_m }: High, level: number, glass: Glass): string {
+  if (Math.abs(altitude_m - level) < LEVEL_FROM) return "";
+  const tick = [-TICK, TICK].map((half) => ({ x_m: x_m + half, y_m, altitude_m: level }));
+  const line = [altitude_m, level].map((height) => ({ x_m, y_m, altitude_m: height }));
+  return glass.line(tick) + glass.line(line);
+}
+
+/** A weather cell as a column from the ground to above all levels: its walls as one shape, and both rims. */
+function column(cell: Cell, glass: Glass): { walls: string; rims: string } {
+  const edge = edgeOf(cell, CELL_STEP).map(({ x, y }) => ({ x_m: x, y_m: y }));
+  const walls = edge.map((from, k) => {
+    const to = edge[(k + 1) % edge.length] ?? from;
+    const outline = [
+      { ...from, altitude_m: 0 },
+      { ...to, altitude_m: 0 },
+      { ...to, altitude_m: CELL_TOP },
+      { ...from, altitude_m: CELL_TOP },
+    ];
+    const points = outline.map((each) => glass.at(each)).filter((each) => each !== null);
+    if (points.length < outline.length) return ""; // beside or behind the camera
+    const area = points.reduce((sum, { x, y }, i) => {
+      const next = points[(i + 1) % points.length] ?? { x, y };
+      return sum + x * next.y - next.x * y;
+    }, 0);
+    const round = area < 0 ? [...points].reverse() : points; // one way round: no wall cuts another out
+    return `M${round.map(({ x, y }) => `${x} ${y}`).join("L")}Z`;
+  });
+  const closed = [...edge, ...edge.slice(0, 1)];
+  const rims = [0, CELL_TOP].map((height) => glass.line(raise(closed, height)));
+  return { walls: walls.join(""), rims: rims.join("") };
 }
 
 /** The levels of the altitude scale below an aircraft, but for one that its picture would hide [m]. */

@@ -4,8 +4,11 @@ import { samplePath, velocity } from "../geometry";
 import { isRound } from "../nd/circle";
 import { square } from "../nd/labelled";
 import type { Label, Surroundings } from "../nd/labels";
+import { relativeAltitude } from "../nd/leader";
 import { SEPARATION } from "../nd/style";
+import { isUrgent, TRAFFIC_COLOUR, trafficId } from "../nd/traffic";
 import type { Box, Point } from "../nd/view";
+import { WEATHER_COLOUR, weatherId } from "../nd/weather";
 import type { Colour } from "../store/colours";
 import { forecastIndex, pointsAfter } from "../store/forecast";
 import type { Ghost } from "../store/ghost";
@@ -31,6 +34,14 @@ export const TEXTS = [
   "other leader",
   ...LEVELS,
 ];
+
+/** What the texts of other aircraft and of cells are called. */
+export function textsAbout({ traffic, cells }: Picture): string[] {
+  return [
+    ...traffic.map(({ ident }) => trafficId(ident)).sort(),
+    ...cells.map(({ ident }) => weatherId(ident)),
+  ];
+}
 
 /** The texts of this moment, the most important first. */
 export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
@@ -95,6 +106,21 @@ export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
       look.colour,
       { side: 90, gap: 8 },
     ),
+    ...[...picture.traffic].reverse().flatMap((each) => {
+      const { ident, aircraft, height, urgency } = each;
+      const level = `${formatLevel(aircraft.altitude_m)} ${relativeAltitude(height)}`;
+      return text(trafficId(ident), aircraft, [ident, level], TRAFFIC_COLOUR[urgency], {
+        ...beside(aircraft),
+        size: 11,
+        optional: !isUrgent(each) && shown.chosen.peek() !== ident,
+      });
+    }),
+    ...picture.cells.flatMap(({ ident, corners, urgency }) => {
+      const [corner] = corners;
+      const place = corner === undefined ? null : { x_m: corner.x, y_m: corner.y, altitude_m: own };
+      const look = { size: 11, optional: urgency === "none" };
+      return text(weatherId(ident), place, [ident], WEATHER_COLOUR[urgency], look);
+    }),
     ...others(shown.ghost.peek()).flatMap(({ id, name, aircraft }) =>
       text(id, aircraft, [name], "superseded", beside(aircraft)),
     ),
@@ -173,6 +199,9 @@ export function aroundTexts(shown: Shown, camera: Camera, size: Size): Surroundi
     ...(warningOf(picture) === null ? [] : [warningBox(size)]),
     ...box(now.pursuer, 0.8 * reachOf(glass, now.pursuer, now)),
     ...(leader === null ? [] : box(leader, 0.8 * reachOf(glass, leader, now))),
+    ...picture.traffic.flatMap(({ aircraft }) =>
+      box(aircraft, 0.7 * reachOf(glass, aircraft, now)),
+    ),
     ...(join === null ? [] : box({ ...join, altitude_m }, 6)),
     ...(closest === null ? [] : box({ ...closest.pursuer, altitude_m }, 6)),
   ];

@@ -16,7 +16,7 @@ import { NOTICE_COLOUR } from "../store/notices";
 import type { Shown } from "../store/picture";
 import { ALTITUDE_SCALE, type Camera, enlargement } from "./camera";
 import type { Size } from "./glass";
-import { aroundTexts, northOf, TEXTS, textsOf, warningOf } from "./texts";
+import { aroundTexts, northOf, TEXTS, textsAbout, textsOf, warningOf } from "./texts";
 
 const NO_LABELS: ReadonlyMap<string, Label> = new Map();
 const ARROW = "M0 12V-12M-5 -5L0 -13L5 -5";
@@ -58,12 +58,13 @@ export function Writing({ shown, camera, size }: Props) {
     });
   }, [shown, camera, labels, size, settled]);
   const enlarged = useComputed(() => enlargement(shown.picture.value.now?.separation_m ?? 0));
+  const about = useComputed(() => textsAbout(shown.picture.value).join("\n"));
   const hasNorth = useComputed(
     () => camera.value !== null && northOf(shown, camera.value, size.value) !== null,
   );
   return (
     <div ref={glass} class="nd nd-display scene-writing" aria-hidden="true">
-      {TEXTS.map((id) => (
+      {[...TEXTS, ...about.value.split("\n").filter(Boolean)].map((id) => (
         <LabelSheet key={id} id={id} labels={labels} placements={placements} />
       ))}
       <Warning shown={shown} />

@@ -65,7 +65,8 @@ export function alternativeSentence(alternative: Alternative, plan: PlanCard): s
   switch (alternative.rejected) {
     case "separation": {
       const least = milesBelow(alternative.least_separation_m);
-      return `only ${least} NM at ${formatClock(alternative.at_s)}`;
+      const whose = alternative.ident === undefined ? "" : ` to ${alternative.ident}`;
+      return `only ${least} NM${whose} at ${formatClock(alternative.at_s)}`;
     }
     case "slower":
       return formatDelay(alternative.time_to_converge_s - plan.time_to_converge_s);

@@ -3,6 +3,8 @@
 Faster by a margin, since a change of plan costs roll reversals, and what is far ahead is uncertain.
 """
 
+from math import inf
+
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.amid import keeps_clear
 from relguide.flying.guidance.assignment import Assignment
@@ -31,7 +33,7 @@ def better(
     left, margin = committed.due - belief.t, change_margin(committed, belief.t, assignment)
     lead = lead_in(belief, assignment, committed)
     limit = assignment.buffered_separation
-    if lead.separation < limit:
+    if lead.separation < limit and belief.counted_separation < inf:
         return NotBetter(fell_back=False, refusal=None)
     situation = situation_of(
         assignment, lead.pursuer, lead.leader, belief, limit,

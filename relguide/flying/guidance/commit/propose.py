@@ -1,6 +1,7 @@
 """propose(belief, …) → Proposal: a path to fly from now on, whatever was flown before."""
 
 from dataclasses import replace
+from math import inf
 
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.amid import Nearing, keeps_clear
@@ -47,7 +48,7 @@ def propose(
             planner's is faster by more than this [s].
     """
     lead = lead_in(belief, assignment, committed)
-    apart = lead.separation
+    apart = lead.separation if belief.counted_separation < inf else inf
     limit = assignment.buffered_separation
     wanted = limit if apart >= limit else assignment.min_separation
     tries = BUFFERS if apart >= limit else BUFFERS + 1
@@ -138,7 +139,7 @@ def _refuse_lost(
     later: NoPlan, belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn
 ) -> NoPlan:
     """Why no plan can begin where the lead-in ends, in figures of now."""
-    if belief.separation < assignment.min_separation:
+    if belief.counted_separation < assignment.min_separation:
         now = ask(planner, situation_now(belief, assignment)).plan
         return now if isinstance(now, NoPlan) else later
     return NoPlan(
