@@ -165,6 +165,7 @@ def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool)
         )
         from relguide.planning.acceptance import ask
         from relguide.planning.alternatives import alternatives
+        from relguide.planning.cells import Cell
         from relguide.planning.deadline import end_of, left_until
 
         until = end_of(asked.deadline)
@@ -178,7 +179,8 @@ def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool)
                 if "flown" in asked.include:
                     print_flown(fly_plan(planned, proving, until))
                 if "optimality" in asked.include:
-                    print_optimality(check_optimality(planned))
+                    cells = any(isinstance(other, Cell) for other in situation.others)
+                    print_optimality(check_optimality(planned), cells=cells)
         return DONE if isinstance(planned, Plan) else FAILED
     reply = answer(situation, anchor, proving, include=asked.include, deadline=asked.deadline)
     name = {"id": body.id} if "id" in body.model_fields_set else {}

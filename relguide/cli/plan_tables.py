@@ -142,8 +142,8 @@ def print_no_plan(card: NoPlanCard) -> None:
     console.print(card.message)
 
 
-def print_optimality(check: OptimalityCheck) -> None:
-    """Print how a plan meets Pontryagin's conditions."""
+def print_optimality(check: OptimalityCheck, *, cells: bool = False) -> None:
+    """Print how a plan meets Pontryagin's conditions, which know no weather cells."""
     console = Console(highlight=False)
     residuals = (
         f"H is within {check.hamiltonian_residual:.1e} of what is due, λ_ψ within "
@@ -160,19 +160,26 @@ def print_optimality(check: OptimalityCheck) -> None:
         case "free" if check.stationary:
             console.print(Text("Stationary", "green") + f", as eq. (16) asks: {residuals}")
         case "free":
-            said = Text("Not stationary", "yellow") + ", a small change would make it faster: "
-            console.print(said + residuals)
+            why = "a small change would make it faster"
+            if cells:
+                why += ", or it touches a cell, of which the conditions know nothing"
+            console.print(Text("Not stationary", "yellow") + f", {why}: {residuals}")
         case _:
             assert_never(check.arrival)
     for contact in check.contacts:
         console.print(
-            f"At {clock(contact.t)} it touches d_min: λ_d rises by {contact.jump:.2e} s/m."
+            f"At {clock(contact.t)} it touches {_limit_of(contact.ident)}: λ_d rises by "
+            f"{contact.jump:.2e} s/m."
         )
     for boundary_arc in check.boundary_arcs:
         console.print(
             f"From {clock(boundary_arc.start)} to {clock(boundary_arc.end)} it slides along d_min: "
             f"μ is {boundary_arc.least_multiplier:.1e} /m or more."
         )
+
+
+def _limit_of(ident: str) -> str:
+    return f"the minimum from {ident}" if ident else "d_min"
 
 
 def print_regular(card: RegularCheck, *, min_separation: float) -> None:

@@ -171,7 +171,9 @@ def optimality_check(report: "OptimalityReport") -> "OptimalityCheck":
         switching_residual=report.switching_residual,
         stationary=report.holds,
         contacts=tuple(
-            ContactCard(t=contact.time, bearing=contact.bearing, jump=contact.jump)
+            ContactCard(
+                t=contact.time, bearing=contact.bearing, jump=contact.jump, ident=contact.ident
+            )
             for contact in report.contacts
         ),
         boundary_arcs=tuple(

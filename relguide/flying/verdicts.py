@@ -3,10 +3,10 @@
 As in `documents`, `contract/wire.py` gives each its JSON form.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
-from relguide.flying.plan_documents import PathPoint, PathSegment, Separation
+from relguide.flying.plan_documents import LEFT_OUT, PathPoint, PathSegment, Separation
 from relguide.planning.optimality import FixedBy
 from relguide.units import (
     Metre,
@@ -29,6 +29,8 @@ class ContactCard:
     """From pursuer to leader, clockwise from north, in [−180°, 180°]."""
     jump: SecondPerMetre
     """By how much λ_d rises there; 0 or more along a minimum."""
+    ident: str = field(default="", metadata=LEFT_OUT)
+    """Of other traffic that is touched. Left out for the leader."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

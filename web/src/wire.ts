@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-19b658413e81";
+export const PROTOCOL = "relguide-76eb59b58083";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -380,6 +380,8 @@ export interface ContactCard {
   bearing_deg: number;
   /** By how much λ_d rises there; 0 or more along a minimum. */
   jump_s_per_m: number;
+  /** Of other traffic that is touched. Left out for the leader. */
+  ident?: string;
 }
 
 /**
