@@ -9,8 +9,6 @@ import {
   untracked,
 } from "@preact/signals";
 import { comparePlanners } from "./api";
-import { situationOf } from "./map/from-flight";
-import { bodyOf } from "./map/situation";
 import type { Rival } from "./store/picture";
 import type { Flight } from "./store/types";
 import type { ComparedPlanner, PlannerVerdict } from "./wire";
@@ -66,9 +64,18 @@ export function followPlanners(planners: Planners, flight: Flight, ask = compare
   let asked = Number.NaN;
   async function askNow(): Promise<void> {
     const { t } = flight.moment.peek();
-    const situation = situationOf(flight);
-    if (situation === null || t === asked) return;
+    const pose = { moment: signal(flight.moment.peek()) };
+    if (t === asked) return;
     asked = t;
+    const [{ situationOf }, { bodyOf }] = await Promise.all([
+      import("./map/from-flight"),
+      import("./map/situation"),
+    ]);
+    const situation = situationOf(pose);
+    if (situation === null) {
+      asked = Number.NaN;
+      return;
+    }
     const answer = await ask(bodyOf(situation));
     if (!planners.isOpen.peek()) return;
     const isPreparing =

@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
 import { isTaken, keyAction, stepAction } from "../src/keyboard";
-import { edit, putSituation } from "../src/map/editor";
-import { FIRST } from "../src/map/situation";
+import { edit, putSituation } from "../src/map/editing";
+import { FIRST } from "../src/map/first";
 import { createSession, stepRange } from "../src/session";
 import { createFlightStore } from "../src/store/flight";
 import { silentActions } from "./silence";

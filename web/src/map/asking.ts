@@ -103,7 +103,7 @@ function createThumbAsker(map: Editor, isShown: () => boolean): () => void {
   async function run(): Promise<void> {
     if (isAsking) return;
     isAsking = true;
-    for (const thumb of map.thumbs) {
+    for (const thumb of map.thumbs.peek()) {
       let again = 1;
       while (again > 0 && thumb.answered.value === null && isShown()) {
         again = await ask(thumb);

@@ -1,16 +1,17 @@
 /** The map's state: the situation that is edited, what was answered to it, and what of it is in sight. */
 
-import { batch, computed, effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
+import { batch, computed, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import { emptyFlight } from "../store/flight";
 import { createShown, type Shown } from "../store/picture";
 import type { Flight } from "../store/types";
 import { NM } from "../units";
 import type { AreaAnswer } from "../wire";
-import { FIRST, type Situation, settle } from "./situation";
+import { FIRST } from "./first";
+import type { Situation } from "./situation";
 import { throttled } from "./throttle";
-import { createThumbs, type Thumb } from "./thumbs";
-import { createSteps, keepStep, type Steps, takeStep } from "./undo";
-import { type Answered, showWhatIf } from "./what-if";
+import type { Thumb } from "./thumbs";
+import { createSteps, type Steps, takeStep } from "./undo";
+import type { Answered } from "./what-if";
 
 /** Ranges of the map [NM]: from its middle to its ring. */
 export const MAP_RANGES = [2, 3, 5, 7, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320] as const;
@@ -52,7 +53,7 @@ export interface Editor {
   /** Whether regions of words and lines of equal time are shown. */
   readonly hasArea: Signal<boolean>;
   /** The gallery beside it. */
-  readonly thumbs: readonly Thumb[];
+  readonly thumbs: Signal<readonly Thumb[]>;
   /** Whether a situation was ever put here. */
   readonly isBegun: Signal<boolean>;
   /** The situation as a flight at its first instant, and what is shown of it. */
@@ -60,6 +61,11 @@ export interface Editor {
   readonly shown: Shown;
   /** The same to be read, beside the map: it changes five times a second. */
   readonly reading: {
+    /** All of it. */
+    readonly whole: ReadonlySignal<{
+      readonly situation: Situation;
+      readonly answered: Answered | null;
+    }>;
     readonly situation: ReadonlySignal<Situation>;
     readonly answered: ReadonlySignal<Answered | null>;
     readonly flight: Flight;
@@ -74,7 +80,7 @@ export function createEditor(ghost?: Shown["ghost"]): Editor {
   const slow = throttled(
     computed(() => ({ situation: situation.value, answered: answered.value })),
   );
-  const editor: Editor = {
+  return {
     situation,
     answered,
     isLate: signal(false),
@@ -86,49 +92,18 @@ export function createEditor(ghost?: Shown["ghost"]): Editor {
     range: signal(40),
     isToFit: signal(true),
     hasArea: signal(true),
-    thumbs: createThumbs(),
+    thumbs: signal([]),
     isBegun: signal(false),
     flight,
     shown: createShown(flight, ghost),
     reading: {
+      whole: slow,
       situation: computed(() => slow.value.situation),
       answered: computed(() => slow.value.answered),
       flight: read,
       shown: createShown(read),
     },
   };
-  effect(() => showWhatIf(flight, editor.situation.value, editor.answered.value));
-  effect(() => showWhatIf(read, slow.value.situation, slow.value.answered));
-  return editor;
-}
-
-/** Puts another situation on the map and brings it into sight. */
-export function putSituation(editor: Editor, situation: Situation): void {
-  batch(() => {
-    if (editor.isBegun.value) keepStep(editor.steps, editor.situation.value, {});
-    editor.situation.value = settle(situation);
-    editor.answered.value = null;
-    editor.isToFit.value = true;
-    editor.notice.value = "";
-    editor.isBegun.value = true;
-  });
-  showAll(editor);
-}
-
-/** Changes the situation; what the same hand does is one step, to be undone as one. */
-export function edit(
-  editor: Editor,
-  change: (situation: Situation) => Situation,
-  hand: unknown = {},
-): void {
-  const before = editor.situation.value;
-  const after = settle(change(before));
-  if (isSame(before, after)) return;
-  batch(() => {
-    keepStep(editor.steps, before, hand);
-    editor.notice.value = "";
-    editor.situation.value = after;
-  });
 }
 
 /** One step back (−1) or on again (+1); what is then out of sight is brought into it. */
@@ -143,10 +118,6 @@ export function step(editor: Editor, way: -1 | 1): void {
   if (isSeen(next.pursuer) && isSeen(next.leader)) return;
   editor.isToFit.value = true;
   showAll(editor);
-}
-
-export function isSame(one: Situation, other: Situation): boolean {
-  return JSON.stringify(one) === JSON.stringify(other);
 }
 
 /** The smallest range, round the middle of them, that shows both aircraft, the slot and the path. */

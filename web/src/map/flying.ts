@@ -4,11 +4,12 @@ import { effect, untracked } from "@preact/signals";
 import type { Session } from "../session";
 import type { FlightRequest } from "../wire";
 import { rememberMap } from "./address";
-import { isSame, putSituation } from "./editor";
+import { isSame, putSituation } from "./editing";
+import { FIRST } from "./first";
 import { situationOf } from "./from-flight";
 import { entryOf } from "./gallery";
 import { readAddress } from "./link";
-import { bodyOf, FIRST } from "./situation";
+import { bodyOf } from "./situation";
 
 /** Starts a flight; `flies` is called once it does. */
 type Begin = (wanted: FlightRequest, flies: () => void) => Promise<void>;

@@ -3,7 +3,8 @@
 import { Choice, Panel } from "../parts";
 import { FT, KT, NM } from "../units";
 import type { IntentPiece, LevelChange, LocalLeader, TurnPiece } from "../wire";
-import { type Editor, edit } from "./editor";
+import { edit } from "./editing";
+import type { Editor } from "./editor";
 import { Field, type FieldProps } from "./field";
 import { BOUNDS, type Declared, MOST_PIECES, type Situation } from "./situation";
 

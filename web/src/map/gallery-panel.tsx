@@ -5,7 +5,8 @@ import { useMemo } from "preact/hooks";
 import { MAP_LAYERS } from "../nd/nd";
 import { Panel } from "../parts";
 import type { Session } from "../session";
-import { frameOf, putSituation } from "./editor";
+import { putSituation } from "./editing";
+import { frameOf } from "./editor";
 import { entryOf } from "./gallery";
 import { mapView } from "./map";
 import { OwnShipThere } from "./symbols";
@@ -21,7 +22,7 @@ export function Gallery({ session }: { session: Session }) {
   return (
     <Panel name="gallery" title="Situations to begin with">
       <ul class="thumbs">
-        {map.thumbs.map((thumb) => {
+        {map.thumbs.value.map((thumb) => {
           const { name, title, what, situation, scenario } = thumb.entry;
           const info = scenarios.value.find((each) => each.name === scenario);
           return (

@@ -2,7 +2,8 @@
 
 import { KT, NM } from "../units";
 import type { IntentPiece } from "../wire";
-import { FIRST, type Situation, settle } from "./situation";
+import { FIRST } from "./first";
+import { type Situation, settle } from "./situation";
 
 export interface Entry {
   readonly name: string;

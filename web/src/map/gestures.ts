@@ -1,7 +1,8 @@
 /** Fingers, mouse and wheel on the map: a handle is dragged, the ground is moved, two fingers zoom. */
 
 import type { Place, Point, View } from "../nd/view";
-import { type Editor, edit, pan, zoom } from "./editor";
+import { edit } from "./editing";
+import { type Editor, pan, zoom } from "./editor";
 import { dragHandle, type HandleName, handlePoint, handlesOf, keyHandle } from "./handles";
 import { otherPart, removeOther } from "./other-handles";
 

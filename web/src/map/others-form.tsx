@@ -3,7 +3,8 @@
 import { Panel } from "../parts";
 import { formatClock, formatMiles, KT, NM } from "../units";
 import type { OtherSeparationCard } from "../wire";
-import { type Editor, edit } from "./editor";
+import { edit } from "./editing";
+import type { Editor } from "./editor";
 import { Fields, IntentFields, LevelField, type Numbered, placeAndSpeed, TENTHS } from "./form";
 import { changeCell, changeTraffic, removeOther } from "./other-handles";
 import { addCell, addTraffic } from "./others";

@@ -3,7 +3,8 @@
 import { Panel } from "../parts";
 import { inPageUnits } from "../units";
 import type { NoPlanCard } from "../wire";
-import { type Editor, edit } from "./editor";
+import { edit } from "./editing";
+import type { Editor } from "./editor";
 import { later } from "./others";
 import type { Situation } from "./situation";
 

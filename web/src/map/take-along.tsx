@@ -4,7 +4,8 @@ import { useSignal } from "@preact/signals";
 import { Panel } from "../parts";
 import type { Actions, Session } from "../session";
 import { writeAddress } from "./link";
-import { bodyOf, pythonOf } from "./situation";
+import { pythonOf } from "./python";
+import { bodyOf } from "./situation";
 
 const KINDS = ["Link", "REST", "Python"] as const;
 type Kind = (typeof KINDS)[number];

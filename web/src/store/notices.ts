@@ -55,6 +55,7 @@ export const UNABLE_TO: Record<UnableReason, string> = {
   geometry: "PATH",
   envelope: "ENVELOPE",
   data: "DATA",
+  traffic: "TRAFFIC",
 };
 
 /** What an alert is about; a loss of separation also says when. */
@@ -86,6 +87,7 @@ export const REPLANNED: Record<PlanReason, string> = {
   intent_received: "LDR INTENT – REPLAN",
   intent_withdrawn: "LDR INTENT LOST – REPLAN",
   braking: "WEAK BRAKING – REPLAN",
+  traffic: "TRAFFIC – REPLAN",
 };
 
 export const ENTERED: Record<Mode, string> = {

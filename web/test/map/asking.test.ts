@@ -3,8 +3,10 @@
 import { signal } from "@preact/signals";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { followMap, isAreaCut } from "../../src/map/asking";
-import { createEditor, edit, putSituation } from "../../src/map/editor";
-import { bodyOf, FIRST, settle } from "../../src/map/situation";
+import { edit, openEditor, putSituation } from "../../src/map/editing";
+import { createEditor } from "../../src/map/editor";
+import { FIRST } from "../../src/map/first";
+import { bodyOf, settle } from "../../src/map/situation";
 import type { NdMode } from "../../src/session";
 import { documentsOf } from "../nd/fixture";
 
@@ -34,13 +36,13 @@ function prepared(ready: () => boolean): { asked: string[] } {
 test("pictures of the gallery that a first start refuses are asked for until they are answered", async () => {
   let isReady = false;
   const { asked } = prepared(() => isReady);
-  const [ndMode, map] = [signal<NdMode>("PLAN"), createEditor()];
+  const [ndMode, map] = [signal<NdMode>("PLAN"), openEditor(createEditor())];
   followMap({ ndMode, map, firstStart: signal(null) });
   await vi.advanceTimersByTimeAsync(3500);
-  expect(map.thumbs.every(({ answered }) => answered.value === null)).toBe(true);
+  expect(map.thumbs.value.every(({ answered }) => answered.value === null)).toBe(true);
   isReady = true;
   await vi.advanceTimersByTimeAsync(1500);
-  expect(map.thumbs.every(({ answered }) => answered.value !== null)).toBe(true);
+  expect(map.thumbs.value.every(({ answered }) => answered.value !== null)).toBe(true);
   const before = asked.length;
   ndMode.value = "ARC";
   ndMode.value = "PLAN";
@@ -50,9 +52,9 @@ test("pictures of the gallery that a first start refuses are asked for until the
 
 test("they are asked for no longer than the map is shown", async () => {
   const { asked } = prepared(() => false);
-  const [ndMode, map] = [signal<NdMode>("PLAN"), createEditor()];
+  const [ndMode, map] = [signal<NdMode>("PLAN"), openEditor(createEditor())];
   followMap({ ndMode, map, firstStart: signal(null) });
-  const first = map.thumbs[0]?.entry.situation;
+  const first = map.thumbs.value[0]?.entry.situation;
   if (first === undefined) throw new Error("An empty gallery.");
   const body = JSON.stringify(bodyOf(settle(first)));
   const count = () => asked.filter((each) => each === body).length;
@@ -75,7 +77,7 @@ test("an answer that is late dims the plan before it, and takes nothing away", a
       answer = resolve;
     });
   });
-  const [ndMode, map] = [signal<NdMode>("PLAN"), createEditor()];
+  const [ndMode, map] = [signal<NdMode>("PLAN"), openEditor(createEditor())];
   followMap({ ndMode, map, firstStart: signal(null) });
   await vi.advanceTimersByTimeAsync(1000);
   const before = map.answered.value;
@@ -100,7 +102,7 @@ test("no area is asked for beyond what is planned", async () => {
     if (url.includes("/areas")) asked.push(JSON.parse(init.body));
     return new Response("{}", { status: 404 });
   });
-  const [ndMode, map] = [signal<NdMode>("PLAN"), createEditor()];
+  const [ndMode, map] = [signal<NdMode>("PLAN"), openEditor(createEditor())];
   putSituation(map, { ...FIRST, pursuer: { ...FIRST.pursuer, x_m: -900_000 } });
   map.centre.value = { x_m: -800_000, y_m: 0 };
   map.range.value = 240;

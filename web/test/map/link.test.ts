@@ -1,7 +1,8 @@
 import { describe, expect, test } from "vitest";
+import { FIRST } from "../../src/map/first";
 import { GALLERY } from "../../src/map/gallery";
 import { clearAddress, readAddress, writeAddress } from "../../src/map/link";
-import { FIRST, type Situation, settle } from "../../src/map/situation";
+import { type Situation, settle } from "../../src/map/situation";
 
 const WINDY: Situation = {
   ...FIRST,

@@ -3,13 +3,15 @@
 import { describe, expect, test, vi } from "vitest";
 import { areaLabels } from "../../src/map/area";
 import { MapBench } from "../../src/map/bench";
-import { createEditor, edit, halfExtent, putSituation, zoom } from "../../src/map/editor";
+import { edit, openEditor, putSituation } from "../../src/map/editing";
+import { createEditor, halfExtent, zoom } from "../../src/map/editor";
+import { FIRST } from "../../src/map/first";
 import { situationOf } from "../../src/map/from-flight";
 import { dragHandle, HANDLES, handlePoint, handlesOf, keyHandle } from "../../src/map/handles";
 import { labelPlace } from "../../src/map/label-place";
 import { mapView, PlanMap } from "../../src/map/map";
 import { sayHandle } from "../../src/map/say-handle";
-import { FIRST, settle } from "../../src/map/situation";
+import { settle } from "../../src/map/situation";
 import { firstTurn } from "../../src/map/turn-handles";
 import { chooseLabels } from "../../src/nd/labelled";
 import { ringLabelPoints } from "../../src/nd/rings";
@@ -28,7 +30,7 @@ import { silentActions } from "../silence";
 const { plan } = documentsOf("fig_6b").plan;
 
 function answered(card: PlanCard = plan) {
-  const map = createEditor();
+  const map = openEditor(createEditor());
   putSituation(map, FIRST);
   map.answered.value = {
     situation: map.situation.value,
@@ -226,7 +228,7 @@ test("zooming keeps a place where it is seen", () => {
 });
 
 test("all is in sight when a situation is put on the map", () => {
-  const map = createEditor();
+  const map = openEditor(createEditor());
   putSituation(map, { ...FIRST, pursuer: { ...FIRST.pursuer, x_m: -400_000 } });
   const half = halfExtent(map.range.value);
   expect(Math.abs(map.centre.value.x_m + 400_000)).toBeLessThan(half);
@@ -246,7 +248,7 @@ test("the situation of a flight is where the two are, with what the leader has y
 });
 
 test("what is edited is kept within bounds", () => {
-  const map = createEditor();
+  const map = openEditor(createEditor());
   edit(map, (now) => ({ ...now, pursuer: { ...now.pursuer, x_m: 5e6, heading_deg: 400 } }));
   expect(map.situation.value.pursuer.x_m).toBe(1_000_000);
   expect(map.situation.value.pursuer.heading_deg).toBe(40);

@@ -1,8 +1,10 @@
 import { describe, expect, test } from "vitest";
 import { windVector } from "../../src/geometry";
+import { FIRST } from "../../src/map/first";
 import { entryOf, GALLERY } from "../../src/map/gallery";
 import { leaderRoute, slotNow } from "../../src/map/leader-route";
-import { bodyOf, FIRST, pythonOf, type Situation, settle } from "../../src/map/situation";
+import { pythonOf } from "../../src/map/python";
+import { bodyOf, type Situation, settle } from "../../src/map/situation";
 import { documentsOf } from "../nd/fixture";
 
 const WINDY: Situation = {

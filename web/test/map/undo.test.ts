@@ -1,13 +1,15 @@
 /** What is laid out can be taken back and done again, step by step. */
 
 import { expect, test } from "vitest";
-import { createEditor, edit, putSituation, step } from "../../src/map/editor";
-import { FIRST, type Situation } from "../../src/map/situation";
+import { edit, openEditor, putSituation } from "../../src/map/editing";
+import { createEditor, step } from "../../src/map/editor";
+import { FIRST } from "../../src/map/first";
+import type { Situation } from "../../src/map/situation";
 
 const east = (x_m: number) => (now: Situation) => ({ ...now, pursuer: { ...now.pursuer, x_m } });
 
 function begun() {
-  const map = createEditor();
+  const map = openEditor(createEditor());
   putSituation(map, FIRST);
   return map;
 }
