@@ -29,7 +29,7 @@ from relguide.planning.cells import Cell, Disc
 from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.plan import plan
 from relguide.planning.situation import Other, Situation
-from relguide.planning.trajectory import LEFT
+from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG, NM
 from tests.flights import Flown, fly_whole
 
@@ -56,13 +56,13 @@ def flown(world: World, until: float = 3600.0) -> Flown:
     return Flown(tuple(simulate(world, plan, sample_period=1.0, until=until)))
 
 
-def breaking(scenario: Scenario, *, after: float) -> World:
-    """The other declares to fly straight on, and turns left toward the pursuer."""
+def breaking(scenario: Scenario, *, after: float, to: float, turn: Turn) -> World:
+    """The other declares to fly straight on, and turns to another heading."""
     world = world_of(scenario)
     pilot = Declared(
         intent=(
             FlyStraight(duration=after),
-            TurnTo(heading=180.0 * DEG, turn=LEFT, bank=25.0 * DEG),
+            TurnTo(heading=to * DEG, turn=turn, bank=25.0 * DEG),
         ),
         declares=(),
     )
@@ -96,8 +96,8 @@ def test_an_unlinked_aircraft_is_planned_around() -> None:
 
 
 def test_one_that_breaks_its_word_is_avoided_and_named() -> None:
-    scenario = amid(replace(CROSSING, x=50_000.0, y=10_000.0))
-    flight = flown(breaking(scenario, after=100.0))
+    oncoming = replace(CROSSING, x=16_000.0, y=60_000.0, heading=180.0 * DEG)
+    flight = flown(breaking(amid(oncoming), after=100.0, to=225.0, turn=RIGHT))
     replanned = [d for d in flight.of(PlanChanged) if d.reason == "traffic"]
     assert replanned
     assert replanned[0].message.startswith("BAW12 ")
@@ -108,8 +108,8 @@ def test_one_that_breaks_its_word_is_avoided_and_named() -> None:
 
 def test_a_loss_to_another_names_it_and_was_announced() -> None:
     """It turns toward the pursuer where there is no way out."""
-    scenario = replace(amid(replace(CROSSING, x=14_000.0, y=-20_000.0, heading=0.0)))
-    flight = flown(breaking(scenario, after=5.0), until=200.0)
+    abeam = replace(CROSSING, x=LIMIT + 300.0, y=-40_000.0, heading=0.0, tas=230.0)
+    flight = flown(breaking(amid(abeam), after=5.0, to=270.0, turn=LEFT), until=200.0)
     (lost,) = separation_lost(flight.documents)
     (loss,) = flight.result.losses
     assert (lost.other, loss.other) == ("BAW12", "BAW12")
@@ -215,7 +215,7 @@ def test_the_minimum_of_an_aircraft_itself_counts_before_that_of_the_link() -> N
 
 
 def test_a_broken_word_is_found_out_and_no_longer_relied_on() -> None:
-    world = breaking(amid(CROSSING), after=20.0)
+    world = breaking(amid(CROSSING), after=20.0, to=180.0, turn=LEFT)
     fleet = Fleet(world, 0.05)
     sky = Sky(world, fleet)
     one = begin_pursuit(world, fleet, world.links[0])

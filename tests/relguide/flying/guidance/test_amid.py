@@ -75,22 +75,22 @@ def test_a_cell_is_met_where_it_will_be() -> None:
     """It comes from the left at 20 m/s, and grows by 10 m/s."""
     cell = Cell(
         ident="CB1",
-        shape=Disc(x=-12_000.0, y=BELIEF.own.y + 46_000.0, radius=4_000.0),
+        shape=Disc(x=-9_000.0, y=BELIEF.own.y + 46_000.0, radius=4_000.0),
         east=20.0,
         growth=10.0,
     )
     (near,) = nearings(straight_on(), replace(BELIEF, cells=(cell,)), ASSIGNMENT)
     t = np.arange(301.0)
-    far = np.hypot(12_000.0 - 20.0 * t, BELIEF.own.tas * t - 46_000.0) - 4_000.0 - 10.0 * t
+    far = np.hypot(9_000.0 - 20.0 * t, BELIEF.own.tas * t - 46_000.0) - 4_000.0 - 10.0 * t
     assert near.least == pytest.approx(far.min(), abs=1e-6)
     assert near.breaks == t[np.flatnonzero(far < 0.0)[0]]
     assert near.sentence == "Weather CB1 is in the way"
 
 
 def test_one_that_turns_unannounced_may_turn_on_within_a_minute() -> None:
-    """Straight on it passes in front; turning on it comes back."""
+    """Straight on it stays abeam."""
     own = BELIEF.own
-    turning = seen(x=own.x - 14_000.0, y=own.y + 22_000.0, heading=0.0, bank=25.0)
+    turning = seen(x=own.x - 12_000.0, y=own.y, heading=0.0, bank=25.0)
     belief = replace(BELIEF, others=(turning,))
     (expected,) = nearings(straight_on(), belief, ASSIGNMENT)
     (feared,) = nearings(straight_on(), belief, ASSIGNMENT, turning_on=True)
