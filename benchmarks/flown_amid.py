@@ -15,9 +15,10 @@ from math import hypot, pi
 from time import thread_time
 
 import numpy as np
+from rich.console import Console
 
 from benchmarks.options import positive
-from relguide.flying.aircraft_documents import LinkResult
+from relguide.flying.aircraft_documents import LinkResult, Loss
 from relguide.flying.dispersion import random_situation
 from relguide.flying.documents import Alert, FlightEnded, PlanChanged, Unable
 from relguide.flying.flight import Scenario, world_of
@@ -33,8 +34,9 @@ from relguide.units import DEG, Metre, Second
 
 LONGEST: Second = 3600.0
 """A flight that has not joined by then has not joined [s]."""
-BEGINS: Metre = 8_000.0
-"""Others begin at least so far outside of their minimum [m]."""
+BEGINS: Metre = 20_000.0
+"""Others begin at least so far outside of their minimum [m]: nearer ones that come head-on leave no
+way out to an aircraft that has to turn first."""
 PASSES: Metre = 6_000.0
 """σ of how near they pass where the pursuer would be if it were alone [m]."""
 
@@ -163,48 +165,56 @@ def main(arguments: Sequence[str] | None = None) -> int:
     asked = parser.parse_args(arguments)
     flown: list[Flown] = []
     drawn = draw_scenarios(asked.seed, asked.others, asked.surveillance)
+    aside, out = Console(stderr=True, soft_wrap=True), Console(soft_wrap=True)
     for number, scenario in islice(drawn, asked.flights):
         one = fly_one(number, scenario, asked.broken)
         flown.append(one)
         if one.result.losses or not one.result.joined:
-            print(_line(one), file=sys.stderr, flush=True)
-    print(_report(flown, asked.broken))
+            aside.print(_line(one), highlight=False)
+    out.print(_report(flown, asked.broken), highlight=False, markup=False)
     return 0
 
 
 def _line(one: Flown) -> str:
-    losses = ", ".join(
-        f"{loss.other or 'leader'} at {loss.t:.0f} s: {loss.separation:.0f} m "
-        f"({'announced ' + format(loss.t - loss.announced[0], '.0f') + ' s before' if loss.announced else 'NOT ANNOUNCED'}; {loss.cause})"
-        for loss in one.result.losses
-    )
     state = "joined" if one.result.joined else "not joined"
+    losses = " ".join(map(_loss, one.result.losses))
     return f"{one.number}: {state} at {one.result.join_time:.0f} s, {one.alerts} alerts. {losses}"
+
+
+def _loss(loss: Loss) -> str:
+    known = "not announced"
+    if loss.announced:
+        known = f"announced {loss.t - loss.announced[0]:.0f} s before"
+    whom = loss.other or "the leader"
+    return f"{loss.separation:.0f} m from {whom} at {loss.t:.0f} s, {known}: {loss.cause}"
 
 
 def _report(flown: Sequence[Flown], broken: float) -> str:
     losses = [loss for one in flown for loss in one.result.losses]
     unannounced = [loss for loss in losses if not loss.announced]
     margins = sorted(
-        (least.separation - least.min_separation, one.number)
+        (round(least.separation - least.min_separation), one.number)
         for one in flown
         for least in one.result.least_other
     )
-    delays = [one.result.join_time - one.result.optimum for one in flown if one.result.joined]
-    whom = Counter("leader" if not loss.other else "others" for loss in losses)
-    lines = [
-        f"{len(flown)} flights, {broken:.0%} of the others break their word",
-        f"joined: {sum(one.result.joined for one in flown)}",
-        f"losses: {len(losses)} ({dict(whom)}), unannounced: {len(unannounced)}",
-        f"least margin to others [m]: {[(round(m), n) for m, n in margins[:10]]}",
-        f"later than alone [s]: median {np.median(delays):.0f}, 95 % {np.quantile(delays, 0.95):.0f}, "
-        f"worst {max(delays):.0f}",
-        f"plans for others: {sum(one.replans for one in flown)}, alerts on others: "
-        f"{sum(one.alerts for one in flown)}, unables: {sum(one.unables for one in flown)}",
-        f"CPU a flight [s]: median {np.median([one.cpu for one in flown]):.2f}, "
-        f"worst {max(one.cpu for one in flown):.1f}",
-    ]
-    return "\n".join(lines)
+    later = [one.result.join_time - one.result.optimum for one in flown if one.result.joined]
+    median, most = np.quantile(later, (0.5, 0.95))
+    cpu = [one.cpu for one in flown]
+    whom = Counter("others" if loss.other else "leader" for loss in losses)
+    replans, alerts = sum(one.replans for one in flown), sum(one.alerts for one in flown)
+    return "\n".join(
+        (
+            f"{len(flown)} flights, {broken:.0%} of the others break their word",
+            f"joined: {sum(one.result.joined for one in flown)}",
+            f"losses: {len(losses)} {dict(whom)}, not announced: {len(unannounced)}",
+            f"least margins to others, by number of the flight [m]: {margins[:10]}",
+            f"later than the optimum alone [s]: median {median:.0f}, 95 % {most:.0f}, "
+            f"worst {max(later):.0f}",
+            f"plans because of others: {replans}, alerts on others: {alerts}, "
+            f"unable: {sum(one.unables for one in flown)}",
+            f"CPU of a flight [s]: median {np.median(cpu):.2f}, worst {max(cpu):.1f}",
+        )
+    )
 
 
 if __name__ == "__main__":

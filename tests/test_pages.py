@@ -6,6 +6,7 @@ import re
 import shlex
 import xml.etree.ElementTree as ET
 from contextlib import redirect_stdout
+from dataclasses import replace
 from math import degrees
 from pathlib import Path
 
@@ -13,8 +14,10 @@ import pytest
 from relguide_server.app import create_app
 from relguide_server.settings import ServiceSettings
 
-from relguide import plan
+from relguide import Plan, plan
 from relguide.__main__ import main
+from relguide.contract.answers import answer
+from relguide.contract.bodies import situation_from_json
 from relguide.flying.documents import FlightEnded
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
@@ -52,6 +55,33 @@ def test_the_client_that_does_not_wait() -> None:
     assert len(lines) == 6
     assert all(re.fullmatch(r"[LR]S[LR] in \d+ s", line) for line in lines[:3])
     assert lines[3:] == ["planned"] * 3
+
+
+def test_the_answer_amid_others() -> None:
+    """To what the page leaves of its digits."""
+    (shown,) = (json.loads(block) for block in blocks(SERVICE, "json"))
+    situation, anchor = situation_from_json((ROOT / "examples" / "amid.json").read_bytes())
+    reply = answer(situation, anchor, plan)
+    alone = plan(replace(situation, others=()))
+    assert isinstance(alone, Plan)
+    later = reply["time_to_converge_s"] - alone.time_to_converge
+    assert re.search(r"growing storm, (\d+) s later", SERVICE)[1] == f"{later:.0f}"  # type: ignore[index]
+    for name, value in shown.items():
+        if name != "separation":
+            assert _rounded(reply[name]) == value
+    others = reply["separation"].pop("others")
+    assert [_rounded(other) for other in others] == shown["separation"].pop("others")
+    assert _rounded(reply["separation"]) == shown["separation"]
+
+
+def _rounded(said: object) -> object:
+    match said:
+        case float():
+            return round(said, 3)
+        case dict():
+            return {name: _rounded(part) for name, part in said.items()}
+        case _:
+            return said
 
 
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:

@@ -17,7 +17,7 @@ from typing import Any
 import orjson
 from relguide_server.app import create_app
 from relguide_server.http import openapi
-from relguide_server.planning.plans import EXAMPLE
+from relguide_server.planning.plans import AMID, EXAMPLE
 from relguide_server.records.service import records_service
 from relguide_server.settings import ServiceSettings
 
@@ -42,7 +42,7 @@ def ask(client: TestClient) -> dict[str, Any]:
         "show_health": client.get("/healthz").json(),
         "show_readiness": _wait_for(client, "/readyz", lambda got: got["status"] == "ready"),
         "make_plan": client.post("/api/v1/plans", json=EXAMPLE).json(),
-        "make_plans": client.post("/api/v1/plans/batch", json=[EXAMPLE | {"id": "a"}]).json(),
+        "make_plans": client.post("/api/v1/plans/batch", json=[EXAMPLE | {"id": "a"}, AMID]).json(),
         "compare_planners": client.post("/api/v1/plans/compare", json=STRAIGHT).json(),
         "draw_area_of_body": client.post("/api/v1/areas", json=area).json(),
         "show_area": client.get(

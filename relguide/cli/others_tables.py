@@ -1,12 +1,11 @@
-"""Heights, other traffic and cells for people: how near a plan comes, or who is in the way."""
+"""Heights, other traffic and cells for people: how near a plan comes to them."""
 
 from collections.abc import Iterable
 
 from rich.console import Console
-from rich.text import Text
 
 from relguide.cli.shared_tables import clock, miles, table
-from relguide.flying.plan_documents import LevelChangeCard, NoPlanCard, Separation, VerticalCard
+from relguide.flying.plan_documents import LevelChangeCard, Separation, VerticalCard
 from relguide.units import FT
 
 
@@ -37,19 +36,6 @@ def print_others(console: Console, separation: Separation) -> None:
         height = (_by_height(other.vertical),) if kept_by_height else ()
         shown.add_row(other.ident, *row, *height)
     console.print(shown)
-
-
-def print_conflict(console: Console, card: NoPlanCard) -> None:
-    """Print who is in the way, when and how near, and what helps."""
-    if card.conflict is not None:
-        found, limit = card.conflict, card.conflict.min_separation
-        near = f"{miles(found.least)} of {miles(limit)}"
-        if limit == 0.0:
-            near = f"{miles(-found.least)} inside"
-        who = Text.assemble("In the way: ", (found.ident, "bold"))
-        console.print(who + f", {near} after {clock(found.at)}.")
-    for remedy in card.remedies:
-        console.print(Text("What helps: ", style="green") + remedy.message)
 
 
 def _by_height(kept: Iterable[VerticalCard]) -> str:

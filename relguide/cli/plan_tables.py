@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from relguide.cli.others_tables import print_conflict, print_levels, print_others
+from relguide.cli.others_tables import print_levels, print_others
 from relguide.cli.shared_tables import clock, miles
 from relguide.flying.plan_documents import (
     AlternativeCard,
@@ -140,7 +140,6 @@ def print_no_plan(card: NoPlanCard) -> None:
     console = Console(highlight=False)
     console.print(Text("No plan", style="bold red") + f" ({card.reason.value})")
     console.print(card.message)
-    print_conflict(console, card)
 
 
 def print_optimality(check: OptimalityCheck) -> None:

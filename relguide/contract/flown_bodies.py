@@ -99,9 +99,10 @@ def scenario_from_body(body: FlownSituationBody) -> tuple["Scenario", Anchor]:
 
     Raises:
         ContractError: for what a shape cannot rule out, as two winds that differ.
-        ValueError: if there is no level at which the aircraft can fly so, in a sentence.
+        ValueError: if the aircraft cannot fly so at the level, or at any, in a sentence.
     """
-    from relguide.flying.scenarios import own_scenario  # which a client need not load
+    from relguide.flying.flight import world_of  # which a client need not load
+    from relguide.flying.scenarios import own_scenario
 
     air = body.air or AirBody()
     situation, anchor = situation_from_body(body.model_copy(update={"wind": _wind(body, air)}))
@@ -110,7 +111,20 @@ def scenario_from_body(body: FlownSituationBody) -> tuple["Scenario", Anchor]:
     if profile is not None:
         own = replace(own, situation=replace(situation, wind=profile.at(own.altitude)))
     own = replace(own, profile=profile, gusts=air.gusts_mps, surveillance=_surveillance(body))
-    return replace(own, believed_air=_believed(body, own.air)), anchor
+    own = replace(own, believed_air=_believed(body, own.air))
+    _expect_own_idents(body, own)
+    world_of(own)
+    return own, anchor
+
+
+def _expect_own_idents(body: FlownSituationBody, own: "Scenario") -> None:
+    """Refuse others that are called like the two aircraft of the flight."""
+    taken = {own.pursuer_ident: "pursuer", own.leader_ident: "leader"}
+    for name, others in (("traffic", body.traffic), ("cells", body.cells)):
+        for index, other in enumerate(others):
+            if other.ident in taken:
+                said = f"is what the {taken[other.ident]} of a flight is called: choose another."
+                raise ContractError([(f"{name}[{index}].ident", said)])
 
 
 def _wind(body: FlownSituationBody, air: AirBody) -> WindBody:

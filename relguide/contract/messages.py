@@ -33,8 +33,9 @@ from pydantic import (
 )
 
 from relguide.contract.flown_bodies import FlownSituationBody
-from relguide.contract.intent_bodies import Intent
+from relguide.contract.intent_bodies import ClimbRate, Intent
 from relguide.contract.other_bodies import Tas
+from relguide.contract.places import Altitude
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.aircraft_documents import ReferenceCard
@@ -466,6 +467,19 @@ class LeaderSpeedCommand(Strict):
     """Of the aircraft; if left out, the first link's leader."""
 
 
+class LeaderLevelCommand(Strict):
+    """Instruct the leader to climb or descend to a level."""
+
+    command: Literal["leader_level"]
+    """Which command it is."""
+    altitude_m: Altitude
+    """Pressure altitude."""
+    rate_mps: ClimbRate = 7.62
+    """How fast; if left out, 1,500 ft/min."""
+    ident: Ident = ""
+    """Of the aircraft; if left out, the first link's leader."""
+
+
 class IntentKnownCommand(Strict):
     """Give the leader's intent to the pursuer, or withdraw it."""
 
@@ -516,6 +530,7 @@ Command = Annotated[
     | SetRateCommand
     | LeaderHeadingCommand
     | LeaderSpeedCommand
+    | LeaderLevelCommand
     | IntentKnownCommand
     | LeaderDataCommand
     | PursuerHeadingCommand

@@ -12,8 +12,8 @@ from typing import IO, Annotated, NamedTuple
 
 from pydantic import Field
 
-from relguide.contract.accepted import Accepted
 from relguide.contract.compass import heading_of
+from relguide.contract.intent_bodies import ClimbRate
 from relguide.contract.other_bodies import Tas
 from relguide.contract.places import Altitude
 from relguide.contract.refusal import ContractError, Strict, loads, parse
@@ -27,13 +27,11 @@ from relguide.flying.orders import (
     order_fault,
 )
 from relguide.flying.world import World
-from relguide.planning.limits import VERTICAL_RATE
 from relguide.units import Second
 
 MAX_LINE = 10_000
 """Longest line that is read [bytes]; an order has some 70."""
 
-Rate = Annotated[float, Accepted(VERTICAL_RATE)]
 Ident = Annotated[str, Field(max_length=100)]
 OrderTime = Annotated[float, Field(ge=0.0)]
 
@@ -78,7 +76,7 @@ class LevelOrder(Strict):
     """Flight time at which it is given."""
     leader_level_m: Altitude
     """Pressure altitude to level off at."""
-    rate_mps: Rate = 7.62
+    rate_mps: ClimbRate = 7.62
     """How fast; 1,500 ft/min if left out."""
     ident: Ident = ""
     """Who is to do so; empty for the first link's leader."""

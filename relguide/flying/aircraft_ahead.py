@@ -1,30 +1,39 @@
-"""In a queue guidance goes by the head; here it minds the aircraft ahead, which is nearer."""
+"""In a queue guidance goes by the head; here it minds the aircraft ahead, which is nearer.
 
-from collections.abc import Sequence
+The aircraft ahead shares where its own guidance takes it: that is its intent, and is drawn.
+"""
+
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import cos, hypot, sin
 
 from relguide.flying.belief import Belief
-from relguide.flying.fleet import Fleet
+from relguide.flying.documents import LeaderRoute
 from relguide.flying.guidance.memory import Advice
+from relguide.flying.logbook import leader_route
 from relguide.flying.pursuit import Pursuit
+from relguide.flying.seen_others import SeenOther
+from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.energy import regained
 from relguide.kernels.flight.laws import closing_tas, ground_track, tas_for_ground_speed
-from relguide.units import MetrePerSecond
+from relguide.planning.aircraft import Leader
+from relguide.planning.intent import final_heading
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
+ROUTE_OFF: Metre = 500.0
+"""A route is drawn anew once its aircraft is so far from where that has it [m]."""
+ROUTE_TURNED: Radian = 2.0 * DEG
+"""… or once it ends on another heading [rad]."""
 IS_AHEAD = 0.5
 """An aircraft farther off the nose than 60° is not ahead: cos 60°."""
 
 
-def mind_ahead(
-    one: Pursuit, pursuits: Sequence[Pursuit], fleet: Fleet, belief: Belief, advice: Advice
-) -> Advice:
+def mind_ahead(one: Pursuit, pursuits: Sequence[Pursuit], belief: Belief, advice: Advice) -> Advice:
     """What guidance asks, but no faster than the aircraft ahead allows; nor joined before it.
 
     Args:
         one: a pursuer.
         pursuits: all of them.
-        fleet: all aircraft.
         belief: what the pursuer knows.
         advice: of its guidance.
     """
@@ -36,15 +45,45 @@ def mind_ahead(
         if other.pursuer == one.ahead
     )
     if advice.mode in ("capture", "follow"):
-        tas = min(advice.control.tas, _allowed(one, fleet, belief))
+        tas = min(advice.control.tas, _allowed(one, belief))
         control = advice.control._replace(tas=max(tas, belief.limits.min_tas))
         return replace(advice, joined=joined, control=control)
     return replace(advice, joined=joined)
 
 
-def _allowed(one: Pursuit, fleet: Fleet, belief: Belief) -> MetrePerSecond:
+def watch_ahead(one: Pursuit, belief: Belief) -> Iterator[LeaderRoute]:
+    """In a queue, draw where the aircraft ahead will fly, and anew where that has changed."""
+    if not one.queued:
+        return
+    now = _seen(one)
+    if one.shown_ahead is not None and not _is_elsewhere(*one.shown_ahead, now, belief.t):
+        return
+    one.shown_ahead = belief.t, now
+    there = now.traffic
+    expected = Leader(x=there.x, y=there.y, heading=there.heading, tas=there.tas, intent=now.intent)
+    yield leader_route(belief.t, one.names, expected, intent_known=now.declared, wind=belief.wind)
+
+
+def _seen(one: Pursuit) -> SeenOther:
+    """The aircraft ahead, as the pursuer last saw it."""
+    (ahead,) = (other for other in one.seen_others if other.ident == one.link.leader)
+    return ahead
+
+
+def _is_elsewhere(t: Second, shown: SeenOther, now: SeenOther, then: Second) -> bool:
+    """Whether an aircraft is not where its drawn route has it, or will not stay on that."""
+    expected, there = shown.after(then - t), now.traffic
+    if shown.declared != now.declared:
+        return True
+    before, after = (final_heading(one.heading, one.intent) for one in (expected, there))
+    if abs(wrap_signed(after - before)) > ROUTE_TURNED:
+        return True
+    return hypot(expected.x - there.x, expected.y - there.y) > ROUTE_OFF
+
+
+def _allowed(one: Pursuit, belief: Belief) -> MetrePerSecond:
     """How fast the pursuer may fly behind the aircraft ahead [m/s]."""
-    own, ahead, asked = belief.own, fleet.body(one.ahead), one.assignment
+    own, ahead, asked = belief.own, _seen(one).body, one.assignment
     east, north = ahead.x - own.x, ahead.y - own.y
     apart = hypot(east, north)
     if east * sin(own.heading) + north * cos(own.heading) < IS_AHEAD * apart:

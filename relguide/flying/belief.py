@@ -127,6 +127,10 @@ class Belief:
     """The leader's, with those that it has declared, if its intent is known."""
     leader_climb: MetrePerSecond = 0.0
     """How fast the leader climbs now; negative if it descends [m/s]."""
+    others: tuple[SeenOther, ...] = ()
+    """All other aircraft."""
+    cells: tuple[Cell, ...] = ()
+    """Weather to be kept out of, as it is now."""
 
     @cached_property
     def height(self) -> Metre | None:
@@ -157,11 +161,6 @@ class Belief:
         """Distance to the leader, infinite while 1,000 ft keep both apart [m]."""
         counts = self.counts
         return self.separation if counts and counts[0][0] <= 0.0 else inf
-
-    others: tuple[SeenOther, ...] = ()
-    """All other aircraft."""
-    cells: tuple[Cell, ...] = ()
-    """Weather to be kept out of, as it is now."""
 
     @cached_property
     def drift(self) -> Drift:

@@ -32,6 +32,7 @@ from relguide.flying.vertical import (
     fly_vertical,
     kept_tas,
     level_at,
+    level_off,
 )
 from relguide.flying.world import Aircraft, Declared, Guided, Recorded, World
 from relguide.kernels.base.angles import wrap, wrap_signed
@@ -185,6 +186,7 @@ class Fleet:
         """A recorded aircraft flies on under its own autopilot, as it flies now."""
         if i in self.recordings:
             self.controls[i, 2] = self.states[i, 5]
+            self.verticals[i] = level_off(self.verticals[i])
             heading = float(self.states[i, 2])
             self.set_program(i, program_of((), heading, 0.0, float(self.states[i, 5])))
 

@@ -67,13 +67,14 @@ def watch_leader(one: Pursuit, seen: Belief) -> Iterator[LeaderChanged | LeaderR
     yield from _notice_turn(one, seen)
     if one.view.rerouted or _route_is_news(one.view.shown, seen):
         one.view = one.view._replace(shown=seen, rerouted=False)
-        yield expected_route(one, seen)
+        if not one.queued:
+            yield expected_route(one, seen)
 
 
 def expected_route(one: Pursuit, seen: Belief) -> LeaderRoute:
     """What the leader is expected to fly, as a document."""
     return leader_route(
-        seen.t, one.watched, seen.leader_after(0.0), intent_known=seen.intent_known, wind=seen.wind
+        seen.t, one.names, seen.leader_after(0.0), intent_known=seen.intent_known, wind=seen.wind
     )
 
 

@@ -131,7 +131,8 @@ def _count_others(one: Pursuit, fleet: Fleet, t: Second) -> Iterator[SeparationL
     for ident, limit, apart in _others_apart(one, fleet, t):
         k = int(np.argmin(apart))
         least, before = float(apart[k]), one.metrics.least_other
-        if before is None or least - limit < before.separation - before.min_separation:
+        spare = inf if before is None else before.separation - before.min_separation
+        if least - limit < spare:
             nearest = ClosestOther(
                 ident=ident, separation=least, t=t + k * fleet.step, min_separation=limit
             )
@@ -151,12 +152,16 @@ def _count_others(one: Pursuit, fleet: Fleet, t: Second) -> Iterator[SeparationL
 
 
 def _others_apart(one: Pursuit, fleet: Fleet, t: Second) -> Iterator[tuple[str, Metre, FloatArray]]:
-    """Of each other its ident, its minimum [m] and how far it was at each step [m]."""
+    """Of each other its ident, its minimum [m], and how far it was at each step [m].
+
+    That is infinite where height kept both apart.
+    """
     own = fleet.trace[one.pursuer, :, :2]
     for j, aircraft in enumerate(fleet.world.aircraft):
         if j not in (one.pursuer, one.ahead):
             limit = kept_from(aircraft, one.link)
-            yield aircraft.ident, limit, np.hypot(*(own - fleet.trace[j, :, :2]).T)
+            apart = np.hypot(*(own - fleet.trace[j, :, :2]).T)
+            yield aircraft.ident, limit, np.where(fleet.by_height(one.pursuer, j), inf, apart)
     times = t + fleet.step * np.arange(float(len(own)))
     for cell in fleet.world.cells:
         yield cell.ident, 0.0, outside(cell, own, times)

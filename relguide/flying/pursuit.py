@@ -129,6 +129,8 @@ class Pursuit:
     """Whether the separation is below d_min."""
     seen_others: tuple[SeenOther, ...] = ()
     """All other aircraft, as it last saw them."""
+    shown_ahead: tuple[Second, SeenOther] | None = None
+    """In a queue, the leader of the link as its route was last drawn, and when, flight time [s]."""
     lost_others: frozenset[str] = frozenset()
     """The idents of others that it is too close to."""
     braked: tuple[MetrePerSecond, ...] = ()

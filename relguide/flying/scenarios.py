@@ -32,11 +32,11 @@ from relguide.flying.recordings.samples import DEFAULT_LEADER, INSTALL, load_sam
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.inputs import expect, number
-from relguide.planning.intent import FlyStraight, TurnTo
+from relguide.planning.intent import ChangeLevel, FlyStraight, TurnTo
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import RIGHT
 from relguide.planning.wind import CALM
-from relguide.units import DEG, NM, Metre, Second
+from relguide.units import DEG, FT, NM, Metre, Second
 
 LEADER_TURNS_AT: Second = 820.0
 """When the leader of Fig. 6 begins its turn [s]."""
@@ -92,6 +92,38 @@ def fig_6(*, intent_known: bool, leader_turns_at: Second = LEADER_TURNS_AT) -> S
             wind=CALM,
         ),
         intent_known=intent_known,
+    )
+
+
+def leader_descends() -> Scenario:
+    """Behind a leader that descends by 6,000 ft as it has declared, from 4,000 ft above it."""
+    name = "leader_descends"
+    descent = FlyStraight(duration=120.0), ChangeLevel(to_altitude=25_000.0 * FT, rate=8.0)
+    return Scenario(
+        name=name,
+        title=TITLES[name],
+        description=DESCRIPTIONS[name],
+        situation=Situation(
+            pursuer=Pursuer(
+                x=-35_000.0,
+                y=25_000.0,
+                heading=90.0 * DEG,
+                tas=235.0,
+                max_bank=25.0 * DEG,
+                altitude=35_000.0 * FT,
+            ),
+            leader=Leader(
+                x=0.0,
+                y=0.0,
+                heading=90.0 * DEG,
+                tas=205.0,
+                intent=descent,
+                altitude=31_000.0 * FT,
+            ),
+            slot_distance=10_000.0,
+            min_separation=5.0 * NM,
+            wind=CALM,
+        ),
     )
 
 
@@ -229,6 +261,7 @@ TITLES = {
     "fig_6a": "Fig. 6a: the leader's intent is unknown",
     "fig_6b": "Fig. 6b: the leader's intent is known",
     "recorded_leader": "A recorded leader",
+    "leader_descends": "A leader that descends",
     "stream_of_five": "A stream of five",
     "overtaking_queue": "A faster aircraft joins a queue",
 }
@@ -239,6 +272,8 @@ DESCRIPTIONS = {
     "40 km north, makes for the route after the turn from the start.",
     "recorded_leader": "The leader flies as it was recorded by ADS-B near Paris, intent unknown; "
     "the pursuer begins 30 km behind it and 20 km to its left.",
+    "leader_descends": "The leader descends from FL310 to FL250 as it has announced; the pursuer, "
+    "at FL350 behind it, goes to its level and joins there.",
     "stream_of_five": "Five aircraft from both sides join behind a leader that turns by 30°, each "
     "a minute behind the one before.",
     "overtaking_queue": "A pursuer that flies 245 m/s from far behind joins the end of a queue of "
@@ -256,6 +291,7 @@ SCENARIOS: Mapping[str, NamedScenario] = {
         ("fig_6a", lambda: fig_6(intent_known=False), _report_nothing),
         ("fig_6b", lambda: fig_6(intent_known=True), _report_nothing),
         ("recorded_leader", lambda: scenario_behind(load_sample(DEFAULT_LEADER)), _samples_missing),
+        ("leader_descends", leader_descends, _report_nothing),
         ("stream_of_five", lambda: _named("stream_of_five", stream_of_five), _report_nothing),
         ("overtaking_queue", lambda: _named("overtaking_queue", overtaking_queue), _report_nothing),
     )

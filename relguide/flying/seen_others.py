@@ -6,9 +6,10 @@ other one flies straight on as soon as it has rolled out; while it turns, it may
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import atan
+from math import atan, inf
 
 import numpy as np
+from numpy.typing import NDArray
 
 from relguide.flying.leaders.declared import intent_after
 from relguide.kernels.base.angles import wrap
@@ -16,6 +17,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import Body
 from relguide.planning.aircraft import Traffic
+from relguide.planning.heights import ALWAYS, Interval
 from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.limits import BANK, MAX_PIECES, TAS
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
@@ -54,11 +56,25 @@ class SeenOther:
     shape (n, 2)"""
     margin: Metre = 0.0
     """What is kept beside its minimum, as it is not seen exactly [m]."""
+    counts: tuple[Interval, ...] = ALWAYS
+    """From when until when its minimum counts, since 1,000 ft are not certain, from now on [s]."""
 
     @cached_property
     def turn_rate(self) -> RadianPerSecond:
         """As observed, positive to the right [rad/s]."""
         return turn_rate(self.body.tas, self.body.bank)
+
+    def may_count(self, within: Second = inf) -> bool:
+        """Whether its minimum counts at any time within so many seconds from now."""
+        return bool(self.counts) and self.counts[0][0] <= within
+
+    def counts_at(self, seconds: int) -> NDArray[np.bool_]:
+        """Whether its minimum counts at each second from now on; of shape (seconds + 1,)."""
+        t = np.arange(seconds + 1.0)
+        found = np.zeros(len(t), dtype=bool)
+        for since, until in self.counts:
+            found |= (t >= since - 1.0) & (t <= until + 1.0)
+        return found
 
     @property
     def turns_unannounced(self) -> bool:
@@ -99,8 +115,14 @@ class SeenOther:
         then = self.after(seconds)
         body = self.body._replace(x=then.x, y=then.y, heading=then.heading, bank=0.0)
         shared = None if self.shared is None else self.shared[int(seconds) :]
+        counts = tuple(
+            (max(since - seconds, 0.0), until - seconds)
+            for since, until in self.counts
+            if until > seconds
+        )
         return replace(
             self,
+            counts=counts,
             body=body,
             heading=then.heading,
             intent=then.intent,

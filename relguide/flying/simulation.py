@@ -10,7 +10,7 @@ from functools import partial
 from itertools import count
 from typing import get_args
 
-from relguide.flying.aircraft_ahead import mind_ahead
+from relguide.flying.aircraft_ahead import mind_ahead, watch_ahead
 from relguide.flying.aircraft_documents import AircraftCard, LinkCard
 from relguide.flying.belief import Belief
 from relguide.flying.braking import learn_braking
@@ -142,7 +142,8 @@ def _simulate(
     yield start
     pursuits = [begin_pursuit(world, fleet, link, engagement, start.seed) for link in world.links]
     for one in pursuits:
-        yield expected_route(one, one.view.shown)
+        if not one.queued:
+            yield expected_route(one, one.view.shown)
     sky = Sky(world, fleet, start.seed)
     for second in count():
         t = float(second)
@@ -263,10 +264,11 @@ def _guide(
     one.seen_others = belief.others
     one.track.add(belief.leader, belief.drift, t)
     yield from watch_leader(one, belief)
+    yield from watch_ahead(one, belief)
     keep_margin(one, belief)
     fit_to_level(one, fleet)
     one.memory, advice = guide(one.memory, belief, one.assignment)
-    advice = mind_ahead(one, pursuits, fleet, belief, advice)
+    advice = mind_ahead(one, pursuits, belief, advice)
     for event in advice.events:
         document = event_document(t, one.watched, event)
         one.metrics = count_event(one.metrics, document, one.names.leader)

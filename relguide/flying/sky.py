@@ -16,18 +16,21 @@ from relguide.flying.leaders.declared import remaining
 from relguide.flying.perception import Perceived, Perception
 from relguide.flying.pursuit import Pursuit
 from relguide.flying.seen_others import SeenOther, pieces_along
-from relguide.flying.world import Declared, World, kept_from
+from relguide.flying.world import Declared, Guided, World, kept_from
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import Body
 from relguide.kernels.flight.program import roll_lead
 from relguide.planning.cells import Cell, Disc
-from relguide.planning.intent import IntentPiece
-from relguide.planning.limits import POSITION
-from relguide.units import Metre, Second
+from relguide.planning.heights import Heights, counted
+from relguide.planning.intent import IntentPiece, LevelChange
+from relguide.planning.limits import ALTITUDE, POSITION
+from relguide.units import Metre, MetrePerSecond, Second
 
 DOUBTED_FOR = 5
 """So many seconds off what it declared, an aircraft is no longer relied on."""
+LEVEL: MetrePerSecond = 1.0
+"""An aircraft that climbs or descends slower flies level [m/s]."""
 OFF_FORECAST: Metre = 500.0
 """So far from its own forecast, an aircraft does not fly what it shared [m]."""
 
@@ -104,6 +107,7 @@ class Sky:
             intent = pieces_along(shared)
         elif declared is None and abs(body.bank) > 1e-3:
             heading += turn_rate(body.tas, body.bank) * roll_lead(can, body.bank, 0.0)
+        heights = self._heights(j, belief.t, known=declared is not None)
         return SeenOther(
             ident=aircraft.ident,
             body=body,
@@ -115,6 +119,7 @@ class Sky:
             broke_its_word=j in self._broken,
             shared=None if shared is None else shared[:, :2],
             margin=0.0 if seen is None else seen.spread.margin,
+            counts=counted(belief.own_heights, heights),
         )
 
     def _intent(self, j: int, body: Body, t: Second) -> tuple[IntentPiece, ...] | None:
@@ -126,6 +131,18 @@ class Sky:
         if flown is None:
             return None
         return remaining(flown.program, flown.cursor, body, self._fleet.believed_limits[j], t)
+
+    def _heights(self, j: int, t: Second, *, known: bool) -> Heights:
+        """The altitude of an aircraft, and its changes: if it declared none, on as now."""
+        fleet, climb = self._fleet, self._fleet.verticals[j].speed
+        flown = fleet.declared_by(j, self._declared.get(j)) if known else None
+        if flown is not None or isinstance(self._world.aircraft[j].pilot, Guided):
+            return fleet.heights(j, t, None if flown is None else flown.program)
+        here = Heights(altitude=fleet.verticals[j].altitude)
+        if abs(climb) < LEVEL:
+            return here
+        to = ALTITUDE.high if climb > 0.0 else ALTITUDE.low
+        return replace(here, changes=(LevelChange(at=0.0, to_altitude=to, rate=abs(climb)),))
 
     def _perceive(self, one: Pursuit, j: int, t: Second) -> Perceived | None:
         """An aircraft as a pursuer perceives it; `None` where it sees the truth."""

@@ -107,6 +107,8 @@ def _needed(claim: Claim, other: Claim) -> Metre:
 
 
 def _have_room(claim: Claim, place: Place, other: Claim, its: Place) -> bool:
+    if claim.leader == other.pursuer or other.leader == claim.pursuer:
+        return True  # D has room for d_min, as each link sees to
     apart = min(abs(place.joining - its.joining), abs(place.keeping - its.keeping))
     return apart >= _needed(claim, other) - ROUNDED
 
@@ -115,7 +117,7 @@ def _refusal(claim: Claim, other: Claim, free: Metre, last: str) -> str:
     """Why a slot cannot be taken, and where there is room."""
     wanted = f"the slot {distance(claim.slot_distance)} behind {claim.leader}"
     if claim.spacing > 0.0:
-        wanted += f", kept {claim.spacing:g} s behind it,"
+        wanted += f" and keep {claim.spacing:g} s"
     return (
         f"{claim.pursuer} cannot take {wanted}: {other.pursuer} is to take the one "
         f"{distance(other.slot_distance)} behind {other.leader}. {distance(free)} or more behind "

@@ -1,6 +1,6 @@
 """How an aircraft climbs and descends, and which speed it keeps meanwhile.
 
-    ḣ → ±min(rate, what its engines give, √(2 a |Δh|)),       |ḧ| ≤ a = 0.1 g
+    ḣ → ±min(rate, what its engines give, √(1.8 a |Δh|)),       |ḧ| ≤ a = 0.1 g
 
 What the engines give is a rate of climb of V T/g at an excess T of thrust over weight, climb or
 idle. It keeps calibrated airspeed or Mach number: whichever is the less, of the speed held and of
@@ -22,6 +22,8 @@ from relguide.units import G0, KT, Metre, MetrePerSecond, Second
 
 PULL = 0.1 * G0
 """How fast a vertical speed changes [m/s²]."""
+CAPTURE = 0.9 * PULL
+"""The same as it levels off [m/s²]."""
 CLIMB_SHARE = 0.8
 """Share of the excess of thrust that a climb takes: the rest is for speed and turns."""
 SLOWING_SHARE = 0.5
@@ -59,6 +61,12 @@ class Vertical(NamedTuple):
 def level_at(altitude: Metre) -> Vertical:
     """In level flight."""
     return Vertical(altitude, 0.0, altitude, 1.0)
+
+
+def level_off(now: Vertical) -> Vertical:
+    """To the level that is reached soonest without a step."""
+    to = now.altitude + 0.5 * now.speed * abs(now.speed) / PULL
+    return now._replace(to=to, rate=max(abs(now.speed), PULL), hold="tas")
 
 
 def begin_change(
@@ -136,7 +144,8 @@ def fly_vertical(
     most = min(now.rate, climb if now.to > now.altitude else descent)
     for k in range(steps):
         way = now.to - altitude
-        wanted = copysign(min(most, sqrt(2.0 * PULL * abs(way))), way)
+        left = max(abs(way) - abs(speed) * dt, 0.0)
+        wanted = copysign(min(most, sqrt(2.0 * CAPTURE * left)), way)
         before, change = speed, min(max(wanted - speed, -PULL * dt), PULL * dt)
         speed += change
         altitude += 0.5 * (before + speed) * dt

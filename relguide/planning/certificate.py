@@ -9,6 +9,7 @@ Where both levels are known, a separation counts only in the times in which 1,00
 """
 
 from dataclasses import dataclass
+from math import inf
 from typing import NamedTuple, assert_never
 
 import numpy as np
@@ -172,7 +173,13 @@ def _others(
         _other(path, _following(situation), joined, other, situation, radius)
         for other in situation.others
     ]
-    return tuple(sorted(found, key=lambda other: other.lower_bound - other.min_separation))
+    return tuple(sorted(found, key=_margin))
+
+
+def _margin(other: OtherSeparation) -> Metre:
+    """What is left of the minimum; all there is where height keeps both apart [m]."""
+    margin = other.lower_bound - other.min_separation
+    return inf if other.holds and other.vertical and margin < 0.0 else margin
 
 
 def _following(situation: Situation) -> FloatArray:

@@ -1,7 +1,9 @@
 """cut(trajectory, situation): the legs on which Pontryagin's conditions are checked.
 
-A leg ends where the control changes or where d = d_min is touched. Touching is a contact at one
-instant, or a boundary arc: arcs of partial bank, one after another, that keep to d = d_min.
+A leg ends where the control changes or where d = d_min is touched, or the minimum of other traffic.
+Touching is a contact at one instant, or a boundary arc: arcs of partial bank, one after another,
+that keep to d = d_min. A contact with other traffic is like one with the leader, with the velocity
+of the one that is touched in place of the leader's.
 Everything here is in R and R/V_P; places are relative to where the trajectory ends.
 """
 
@@ -9,11 +11,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
 from math import cos, hypot, sin
+from typing import NamedTuple
 
 import numpy as np
 
 from relguide.kernels.base.costate import contacts
 from relguide.kernels.base.motion import advance
+from relguide.planning.aircraft import Leader, Traffic
+from relguide.planning.heights import counted, heights_of
 from relguide.planning.situation import Situation
 from relguide.planning.tables import motion_of
 from relguide.planning.trajectory import Trajectory
@@ -60,7 +65,7 @@ class CostateLeg:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Instant:
-    """Both aircraft at an instant."""
+    """The pursuer and the leader, or other traffic that it touches, at an instant."""
 
     time: float
     course: Vector
@@ -69,6 +74,8 @@ class Instant:
     toward: Vector
     """Unit vector from the pursuer to the leader."""
     separation: float
+    ident: str = ""
+    """Of other traffic that takes the leader's place."""
 
     @property
     def passing(self) -> Vector:
@@ -121,43 +128,57 @@ class Cut:
 
 def cut(trajectory: Trajectory, situation: Situation) -> Cut:
     """Cut a trajectory where the conditions change."""
-    leader, radius = situation.leader.trajectory, situation.pursuer.turn_radius
+    leader, radius = situation.leader, situation.pursuer.turn_radius
     scale = radius / trajectory.tas
     pieces = list(_pieces(trajectory, scale))
 
-    def encounter(t: float) -> Instant:
-        ours, theirs = trajectory.pose_at(t * scale), leader.pose_at(t * scale)
+    def encounter(t: float, other: Leader | Traffic = leader) -> Instant:
+        ours, theirs = trajectory.pose_at(t * scale), other.trajectory.pose_at(t * scale)
         dx, dy = theirs.x - ours.x, theirs.y - ours.y
         d = max(hypot(dx, dy), 1e-9)  # where they meet there is no direction, and no limit
-        alpha = leader.tas / trajectory.tas
+        alpha = other.tas / trajectory.tas
         return Instant(
             time=t,
             course=(sin(ours.heading), cos(ours.heading)),
             leader_velocity=(alpha * sin(theirs.heading), alpha * cos(theirs.heading)),
             toward=(dx / d, dy / d),
             separation=d / radius,
+            ident=other.ident if isinstance(other, Traffic) else "",
         )
 
     times = [0.0, *accumulate(duration for duration, _ in pieces)]
     limit = situation.min_separation / radius
     boundary_arcs = _boundary_arcs(pieces, [abs(encounter(t).separation - limit) for t in times])
-    spans = [(times[i], times[j]) for i, j in boundary_arcs]
+    touched: list[Leader | Traffic] = [leader]
+    touched += [one for one in situation.others if isinstance(one, Traffic)]
+    spans = [_Span(times[i], times[j], leader) for i, j in boundary_arcs]
     spans += [
-        (t, t)
-        for t in _contacts(trajectory, situation)
+        _Span(t, t, other)
+        for other in touched
+        for t in _contacts(trajectory, situation, other)
         # at its two ends a trajectory's λ is free
         if ROUNDING < t < times[-1] - ROUNDING
-        and not any(low - EDGE < t < high + EDGE for low, high in spans)
+        and not any(low - EDGE < t < high + EDGE for low, high, _ in spans)
     ]
-    spans.sort()
+    spans.sort(key=lambda span: (span.low, span.high))
     return Cut(
         legs=join_legs(_legs(pieces, trajectory.heading, spans)),
         touches=tuple(
-            Touch(nodes=tuple(encounter(t) for t in (times if a < b else (a,)) if a <= t <= b))
-            for a, b in spans
+            Touch(
+                nodes=tuple(encounter(t, other) for t in (times if a < b else (a,)) if a <= t <= b)
+            )
+            for a, b, other in spans
         ),
         end=encounter(times[-1]),
     )
+
+
+class _Span(NamedTuple):
+    """When one of the others, or the leader, is touched: from when until when."""
+
+    low: float
+    high: float
+    other: Leader | Traffic
 
 
 def _pieces(trajectory: Trajectory, scale: float) -> Iterator[tuple[float, float]]:
@@ -191,32 +212,39 @@ def _boundary_arcs(
     return list(zip(edges[::2], edges[1::2], strict=True))
 
 
-def _contacts(trajectory: Trajectory, situation: Situation) -> list[float]:
-    radius, leader = situation.pursuer.turn_radius, situation.leader.trajectory
+def _contacts(trajectory: Trajectory, situation: Situation, other: Leader | Traffic) -> list[float]:
+    """When the leader, or other traffic, is touched, in the times in which its minimum counts."""
+    radius = situation.pursuer.turn_radius
+    limit = (other if isinstance(other, Traffic) else situation).min_separation
     found = np.empty(MAX_CONTACTS)
     n = contacts(
         motion_of(trajectory),
-        motion_of(leader),
+        motion_of(other.trajectory),
         trajectory.duration,
-        situation.min_separation - TOUCHES * radius,
-        situation.min_separation + TOUCHES * radius,
+        limit - TOUCHES * radius,
+        limit + TOUCHES * radius,
         STRIDE * radius / trajectory.tas,
         found,
     )
-    return [float(t) * trajectory.tas / radius for t in found[:n]]
+    when = counted(heights_of(situation.pursuer), heights_of(other))
+    return [
+        t * trajectory.tas / radius
+        for t in found[:n].tolist()
+        if any(since <= t <= until for since, until in when)
+    ]
 
 
 def _legs(
-    pieces: list[tuple[float, float]], heading: float, spans: list[tuple[float, float]]
+    pieces: list[tuple[float, float]], heading: float, spans: list[_Span]
 ) -> Iterator[CostateLeg]:
     """The pieces, cut at contacts; `join_legs` gives them their places."""
     t, end, part = 0.0, 0.0, 0
     for duration, rate in pieces:
         end += duration
         while end - t > ROUNDING:
-            while part < len(spans) and spans[part][1] <= t + ROUNDING:
+            while part < len(spans) and spans[part].high <= t + ROUNDING:
                 part += 1
-            low, high = spans[part] if part < len(spans) else (end, end)
+            low, high = spans[part][:2] if part < len(spans) else (end, end)
             sliding = low - ROUNDING <= t
             stop = min(end, high if sliding else low)
             yield CostateLeg(

@@ -47,7 +47,10 @@ A boundary arc is flown a millimetre outside, and a path may touch d_min just be
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactPoint:
-    """Where the trajectory touches d = d_min, or where a boundary arc along it begins or ends."""
+    """Where the trajectory touches d = d_min, or where a boundary arc along it begins or ends.
+
+    With other traffic, also where the trajectory touches that one's minimum.
+    """
 
     time: Second
     bearing: Radian
@@ -55,6 +58,8 @@ class ContactPoint:
     jump: float
     """ν = λ_d after − λ_d before [s/m]; by (10) and (11) a minimum asks that ν ≥ 0. For contacts
     closer together than `TOGETHER` only the sum means much."""
+    ident: str = ""
+    """Of other traffic that is touched; empty for the leader."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,7 +76,8 @@ class SlideReport:
 class OptimalityReport:
     """What Pontryagin's conditions say of a trajectory.
 
-    The certificate says whether it keeps d_min: where it comes closer, nothing is asked here.
+    The certificate says whether it keeps d_min: where it comes closer, nothing is asked here. A
+    path that touches a weather cell may be optimal and yet not meet these conditions.
     """
 
     arrival: FixedBy
@@ -162,7 +168,10 @@ def check(
         neglected=(whole.end.time - sum(leg.duration for leg in judgement.legs)) * scale,
         contacts=tuple(
             ContactPoint(
-                time=at.time * scale, bearing=atan2(*at.toward), jump=jump / trajectory.tas
+                time=at.time * scale,
+                bearing=atan2(*at.toward),
+                jump=jump / trajectory.tas,
+                ident=at.ident,
             )
             for touch, jumps in zip(touches, found.jumps.tolist(), strict=True)
             for at, jump in zip(touch.ends, jumps[: len(touch.ends)], strict=True)

@@ -20,6 +20,7 @@ from relguide.planning.constrained_path import candidate_of_legs
 from relguide.planning.contact_search import Question
 from relguide.planning.inputs import expect, expect_function, expect_within
 from relguide.planning.plan import Optimality, Plan, Proof
+from relguide.planning.plan import plan as exact_plan
 from relguide.planning.tables import scene_of
 from relguide.planning.words import Candidates, candidates
 from relguide.units import Second
@@ -65,6 +66,9 @@ def prove(
     A plan already proved optimal is returned as it is. Within `CERTIFIED` of its bound a plan is
     `certified`. The search ends early once it is within `TOLERANCE`.
 
+    Amid others the bound is that of the leader alone: leaving others out only relaxes what is
+    asked. A path found on the way takes the plan's place if it keeps clear of all.
+
     Args:
         plan: made by any planner.
         seconds: how long to search at most, 0 to `MAX_SECONDS` [s], without loading the kernels.
@@ -100,6 +104,9 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
 
     Another one comes as soon as the plan is within `CERTIFIED` of its bound.
     """
+    if plan.situation.others:
+        yield from _bounds_amid_others(plan, seconds)
+        return
     search = _Search(plan)
     best = min(plan.optimality.lower_bound, plan.time_to_converge)
 
@@ -124,6 +131,26 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
             reported, told = elapsed, gap <= CERTIFIED
             yield report(elapsed)
     yield report(perf_counter() - started)
+
+
+def _bounds_amid_others(plan: Plan, seconds: Second) -> Iterator[Bound]:
+    """The same where others are in the way, by the bounds of a plan for the leader alone."""
+    best, least = plan, plan.optimality.lower_bound
+    alone = exact_plan(replace(plan.situation, others=()), deadline=seconds)
+    if not isinstance(alone, Plan):
+        yield Bound(elapsed=0.0, lower_bound=least, gap=best.time_to_converge - least, plan=best)
+        return
+    reports: Iterator[Bound] = bounds(alone, seconds=seconds)
+    if alone.optimality.proof == "relaxation" or plan.situation.min_separation == 0.0:
+        bound = alone.optimality.lower_bound
+        reports = iter((Bound(elapsed=0.0, lower_bound=bound, gap=0.0, plan=alone),))
+    for report in reports:
+        certificate = certify(report.plan.trajectory, plan.situation)
+        if certificate.holds and report.plan.time_to_converge < best.time_to_converge:
+            best = replace(report.plan, situation=plan.situation, certificate=certificate)
+        least = min(max(least, report.lower_bound), best.time_to_converge)
+        gap = best.time_to_converge - least
+        yield Bound(elapsed=report.elapsed, lower_bound=least, gap=gap, plan=best)
 
 
 class _Search:

@@ -16,10 +16,12 @@ from relguide.planning.wind import Wind
 SAMPLES = 400
 """Documents of a flight after which its every kernel has been called."""
 SETS = {
-    "plan": ("flying", "limited"),
-    "serve": ("flying", "limited", "areas", "bulk"),
-    "all": ("flying", "limited", "areas", "proofs", "bulk", "networks", "tree", "learning"),
-}
+    "plan": ("flying", "limited", "amid"),
+    "serve": ("flying", "limited", "amid", "areas", "bulk"),
+    "all": (
+        "flying", "limited", "amid", "areas", "proofs", "bulk", "networks", "tree", "learning",
+    ),
+}  # fmt: skip
 """What `--for` may name, and its steps in the order they are begun."""
 
 
@@ -72,6 +74,14 @@ def _compile_limited() -> None:
     lost = replace(scenario("fig_6b"), situation=_situation(10.0, 500.0, 0.0))
     for _ in islice(fly(lost, plan), SAMPLES):
         pass
+
+
+def _compile_amid() -> None:
+    from relguide.planning import amid
+    from relguide.planning.plan import plan
+
+    amid.load_kernels()
+    plan(amid.LOADING)
 
 
 def _compile_areas() -> None:
@@ -225,6 +235,7 @@ opens.
 STEPS = {
     "flying": Step("flights and plans without the limit", 104, _compile_flying),
     "limited": Step("the limited search", 227, _compile_limited, after=("flying",)),
+    "amid": Step("plans amid others", 42, _compile_amid, after=("limited",)),
     "areas": Step("areas", 19, _compile_areas, after=("flying",), packages=("contourpy",)),
     "proofs": Step("proofs of optimality", 222, _compile_proofs, after=("limited",)),
     "bulk": Step("plans in bulk", 5, _compile_bulk, after=("limited",), packages=("contourpy",)),

@@ -10,6 +10,7 @@ import pytest
 FOLDER = Path(__file__).parents[2] / "examples"
 EXAMPLES = sorted(FOLDER.glob("*.py"))
 SAYS = {
+    "amid_traffic": ("storms.csv", "40.0 km: "),
     "own_leader": ("leader.csv", "joined: True, never closer than "),
     "own_planner": ("careful.jsonl", "(planner careful)"),
     "parameter_study": ("study.csv", "Times(775 situations, 775 with a plan, "),
@@ -18,7 +19,7 @@ SAYS = {
 """Of each: a file it writes, and something it prints."""
 
 
-def test_there_are_four() -> None:
+def test_there_are_five() -> None:
     assert [example.stem for example in EXAMPLES] == sorted(SAYS)
 
 

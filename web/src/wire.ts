@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-774dc5000c89";
+export const PROTOCOL = "relguide-19b658413e81";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -137,6 +137,7 @@ export type Command =
   | SetRateCommand
   | LeaderHeadingCommand
   | LeaderSpeedCommand
+  | LeaderLevelCommand
   | IntentKnownCommand
   | LeaderDataCommand
   | PursuerHeadingCommand
@@ -742,6 +743,14 @@ export interface LeaderHeadingCommand {
   command: "leader_heading";
   heading_deg: number;
   direction?: Direction | null;
+  ident?: string;
+}
+
+/** Instruct the leader to climb or descend to a level. */
+export interface LeaderLevelCommand {
+  command: "leader_level";
+  altitude_m: number;
+  rate_mps?: number;
   ident?: string;
 }
 

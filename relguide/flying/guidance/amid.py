@@ -33,10 +33,12 @@ class Nearing(NamedTuple):
     """What is to be kept [m]; 0 for a cell."""
     margin: Metre
     """What is kept beside it for what is not certain [m]."""
+    apart: Metre
+    """How far apart they are now [m]; negative inside a cell."""
     now: Metre
-    """How far apart they are [m]; negative inside a cell."""
+    """The same; infinite where 1,000 ft keep them apart [m]."""
     least: Metre
-    """The least ahead [m]."""
+    """The least ahead [m]; infinite as above."""
     at: Second
     """When, flight time [s]."""
     breaks: Second
@@ -88,7 +90,9 @@ def nearings(
 def keeps_clear(ahead: Forecast, belief: Belief, assignment: Assignment) -> Nearing | None:
     """What a flight ahead comes too close to, with what is not certain of it; `None` if nothing."""
     for nearing in nearings(ahead, belief, assignment):
-        if nearing.spare < nearing.margin and nearing.spare < nearing.now - nearing.limit:
+        # what is nearer now than the margin asks may come half as near again, but not too near
+        has = max(nearing.now - nearing.limit, 0.0)
+        if nearing.spare < min(nearing.margin, 0.5 * has):
             return nearing
     return None
 
@@ -108,6 +112,8 @@ def others_after(
     """
     found: list[Other] = []
     for other in _nearest(belief):
+        if not other.may_count():  # at another level
+            continue
         there = other.after(seconds)
         apart = hypot(there.x - pursuer.x, there.y - pursuer.y)
         spare = apart - other.min_separation - BEGUN_INSIDE
@@ -139,16 +145,19 @@ def _nearing(
         seconds = min(int(caution), len(own) - 1)
         expected.append(other.places_turning_on(seconds))
     limit, least, at, breaks = other.min_separation, inf, t, inf
+    counts = other.counts_at(len(own) - 1)
     for theirs in expected:
         apart, when = _closest(own[: len(theirs)] - theirs)
+        apart = np.where(counts[: len(apart)], apart, inf)
         k = int(np.argmin(apart))
         if apart[k] < least:
             least, at = float(apart[k]), t + float(when[k])
         below = np.flatnonzero(apart < limit)
         if len(below):
             breaks = min(breaks, t + float(below[0]))
-    now = hypot(*(own[0] - expected[0][0]).tolist())
-    return Nearing(other.ident, limit, other.margin, now, least, at, breaks)
+    distance_now = hypot(*(own[0] - expected[0][0]).tolist())
+    now = distance_now if counts[0] else inf
+    return Nearing(other.ident, limit, other.margin, distance_now, now, least, at, breaks)
 
 
 def _closest(apart: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -172,4 +181,4 @@ def _nearing_cell(own: FloatArray, cell: Cell, t: Second) -> Nearing:
     inside = np.flatnonzero(beyond < 0.0)
     breaks = t + float(inside[0]) if len(inside) else inf
     now, least = float(beyond[0]), float(beyond[k])
-    return Nearing(cell.ident, 0.0, 0.0, now, least, t + float(k), breaks, is_cell=True)
+    return Nearing(cell.ident, 0.0, 0.0, now, now, least, t + float(k), breaks, is_cell=True)

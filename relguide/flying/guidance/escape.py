@@ -298,7 +298,8 @@ def _traffic(belief: Belief, assignment: Assignment) -> Iterator[_Obstacle]:
     for other in belief.others:
         body, limit = other.body, other.min_separation
         apart = hypot(body.x - own.x, body.y - own.y)
-        if apart > limit + (own.tas + body.tas) * settings.look_out:
+        near = apart <= limit + (own.tas + body.tas) * settings.look_out
+        if not near or not other.may_count(settings.look_out):
             continue
         # what is nearer now than it should be cannot be kept farther off, but for what is lost
         begin = REGAINED_AFTER if apart < limit else 0.0

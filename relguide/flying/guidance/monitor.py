@@ -193,7 +193,7 @@ def judge_others(
                 message=f"{near.name}: the separation is kept again."
                 if step.cleared
                 else _other_sentence(step.level, near, t),
-                predicted_least=near.least,
+                predicted_least=min(near.least, near.apart),
                 predicted_at=near.at,
                 cleared=step.cleared,
                 ident=near.ident,

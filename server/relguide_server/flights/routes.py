@@ -16,6 +16,7 @@ from relguide.contract.messages import (
     IntentKnownCommand,
     LeaderDataCommand,
     LeaderHeadingCommand,
+    LeaderLevelCommand,
     LeaderSpeedCommand,
     PauseCommand,
     PlayCommand,
@@ -33,6 +34,7 @@ from relguide.flying.orders import (
     IntentKnown,
     LeaderData,
     LeaderHeading,
+    LeaderLevel,
     LeaderSpeed,
     PursuerHeading,
     SetEngagement,
@@ -296,6 +298,8 @@ def _command(flight: LiveFlight, command: Command) -> None:
             _order(flight, _leader_heading(command))
         case LeaderSpeedCommand(tas_mps=tas, ident=ident):
             _order(flight, LeaderSpeed(tas=tas, ident=ident))
+        case LeaderLevelCommand(altitude_m=altitude, rate_mps=rate, ident=ident):
+            _order(flight, LeaderLevel(altitude=altitude, rate=rate, ident=ident))
         case IntentKnownCommand(known=known, ident=ident):
             _order(flight, IntentKnown(known=known, ident=ident))
         case LeaderDataCommand(received=received, ident=ident):

@@ -75,6 +75,22 @@ EXAMPLE = {
     "min_separation_m": 9260.0,
 }
 """The paper's Fig. 6b, roughly."""
+AMID = {
+    **EXAMPLE,
+    "id": "amid",
+    "traffic": [
+        {"ident": "BAW12", "x_m": -30000.0, "y_m": -70000.0, "heading_deg": 45.0, "tas_mps": 220.0}
+    ],
+    "cells": [
+        {
+            "ident": "CB1",
+            "disc": {"x_m": 85000.0, "y_m": -70000.0, "radius_m": 12000.0},
+            "velocity_mps": [8.0, 4.0],
+            "growth_mps": 2.0,
+        }
+    ],
+}
+"""The same amid other traffic and weather."""
 
 
 class Answer(RootModel[PlanAnswer]):
@@ -262,7 +278,7 @@ async def compare_planners(request: Request, query: Annotated[CompareQuery, Quer
             "content": {
                 JSON: {
                     "schema": list_schema(schema_of(NamedSituationBody), most=MAX_BATCH),
-                    "example": [EXAMPLE],
+                    "example": [EXAMPLE | {"id": "a"}, AMID],
                 },
                 NDJSON: {
                     "schema": {"type": "string", "description": "A situation a line."},

@@ -15,7 +15,7 @@ from relguide.flying.scenarios import own_scenario
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.wind_profile import WindLevel, WindProfile
 from relguide.planning.wind import wind_from
-from tests.bodies import BODY
+from tests.bodies import AMID, BODY
 
 ROOT = Path(__file__).parents[3]
 CALM_BODY = {name: value for name, value in BODY.items() if name != "wind"}
@@ -122,3 +122,29 @@ def test_the_example_has_all_of_it() -> None:
     assert own.profile is not None
     assert own.believed_air is not None
     assert (own.gusts, own.isa_deviation, own.surveillance.kind) == (1.5, 5.0, "adsb")
+
+
+def test_others_fly() -> None:
+    own = read(traffic=AMID["traffic"], cells=AMID["cells"])
+    world = world_of(own)
+    assert [aircraft.ident for aircraft in world.aircraft] == ["PURSUER", "LEADER", "BAW12", "AFR7"]
+    assert [cell.ident for cell in world.cells] == ["CB1", "CB2"]
+
+
+@pytest.mark.parametrize(
+    ("name", "ident", "said"),
+    [
+        ("traffic", "LEADER", "is what the leader of a flight is called: choose another."),
+        ("cells", "PURSUER", "is what the pursuer of a flight is called: choose another."),
+    ],
+)
+def test_others_are_not_called_as_the_two_aircraft(name: str, ident: str, said: str) -> None:
+    first, second = AMID[name]
+    with pytest.raises(ContractError) as caught:
+        read(**{name: [first, {**second, "ident": ident}]})
+    assert caught.value.problems == ((f"{name}[1].ident", said),)
+
+
+def test_a_pursuer_above_its_ceiling_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"cannot fly at FL656: choose FL\d+, its ceiling"):
+        read(pursuer={**BODY["pursuer"], "altitude_m": 20_000})

@@ -55,10 +55,13 @@ def test_each_is_given_once_at_its_time() -> None:
         (b"go", "This is not JSON"),
         (b"[]", "A line must be an object with fields: an order."),
         (b"\xff", "This is not UTF-8 text"),
-        (b'{"t_s": 400}', "An order has one of leader_heading_deg, leader_tas_mps or intent_known"),
+        (
+            b'{"t_s": 400}',
+            "An order has one of leader_heading_deg, leader_tas_mps, leader_level_m or inte",
+        ),
         (
             b'{"t_s": 400, "leader_tas_mps": 200, "intent_known": true}',
-            "An order has one of leader_heading_deg, leader_tas_mps or intent_known, not 2 of",
+            "An order has one of leader_heading_deg, leader_tas_mps, leader_level_m or inte",
         ),
         (b'{"leader_tas_mps": 200}', "t_s: is missing."),
         (b'{"t_s": 59, "intent_known": true}', "t_s: must be at least 60, that of the order befo"),

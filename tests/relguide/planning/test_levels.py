@@ -154,3 +154,40 @@ def test_a_pursuer_keeps_the_levels_it_declares():
     answer = plan(declared)
     assert isinstance(answer, Plan)
     assert answer.levels == levels
+
+
+def test_no_plan_amid_traffic_is_below_both_minima_at_once():
+    rng = np.random.default_rng(6)
+    near, tight = 0, 0
+    for _ in range(60):
+        situation = situations(rng)
+        others = []
+        for k in range(4):
+            x, y = rng.uniform(-60e3, 60e3, 2)
+            change = ChangeLevel(to_altitude=FL * rng.choice([290.0, 330.0, 370.0]), rate=8.0)
+            others.append(
+                Traffic(
+                    ident=f"T{k}", x=x, y=y, heading=rng.uniform(0.0, 6.0), tas=220.0,
+                    min_separation=5.0 * NM, altitude=FL * rng.choice([310.0, 330.0, 350.0, 390.0]),
+                    intent=(FlyStraight(duration=100.0), change) if k % 2 else (),
+                )
+            )  # fmt: skip
+        answer = plan(replace(situation, others=tuple(others)))
+        if isinstance(answer, NoPlan):
+            continue
+        times = np.arange(0.0, answer.time_to_converge, 1.0)
+        own = answer.sample(times)
+        tight += answer.optimality.proof == "bound"
+        for other in (situation.leader, *others):
+            there = other.trajectory.sample(times)
+            apart = np.hypot(own.x - there.x, own.y - there.y)
+            near += int((apart < 5.0 * NM).sum())
+            for _ in range(4):
+                heights = [
+                    flown(heights_of(one), rng, times) for one in (answer.situation.pursuer, other)
+                ]
+                above = abs(heights[0] - heights[1])
+                kept = (apart >= 5.0 * NM - 1.0) | (above >= VERTICAL_MINIMUM - WHOLE_METRE - 1e-6)
+                assert kept.all()
+    assert near > 500
+    assert tight > 3

@@ -14,7 +14,7 @@ from relguide.contract.messages import ScenarioFlightRequest
 from relguide.contract.simulation_bodies import MAX_SIMULATIONS, SimulationAnswer
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
-from tests.bodies import BODY
+from tests.bodies import AMID, BODY, changed
 from tests.server.serving import TestClient, ideal_app
 
 PATH = "/api/v1/simulations"
@@ -52,6 +52,12 @@ def test_flights_are_flown_to_their_end_as_by_the_command(client: TestClient) ->
         ([{"scenario": "fig_6b", "rate": 10.0}], "[0].rate"),
         ([{"situation": {**BODY, "slot_distance_m": 1.0}}], "[0].situation.slot_distance_m"),
         ([{"situation": {**BODY, "air": {"wind": GALE}}}], "[0].situation.air.wind"),
+        ([{"situation": {**AMID, "cells": [{"ident": "A"}]}}], "[0].situation.cells[0].disc"),
+        (
+            [{"situation": changed(AMID, "traffic.1.ident", "LEADER")}],
+            "[0].situation.traffic[1].ident",
+        ),
+        ([{"situation": changed(AMID, "pursuer.altitude_m", 20_000)}], "[0].situation.pursuer"),
     ],
 )
 def test_what_cannot_be_flown_is_refused_by_its_path(
@@ -60,6 +66,13 @@ def test_what_cannot_be_flown_is_refused_by_its_path(
     answer = client.post(PATH, json=body)
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["path"] == path
+
+
+@pytest.mark.slow
+def test_a_situation_amid_others_is_flown(client: TestClient) -> None:
+    (flown,) = client.post(PATH, json=[{"situation": AMID}]).json()
+    assert flown["joined"]
+    assert flown["losses"] == []
 
 
 def test_where_one_is_refused_the_others_are_not_flown(monkeypatch: pytest.MonkeyPatch) -> None:
