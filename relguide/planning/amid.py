@@ -7,13 +7,14 @@ judge in the end.
 """
 
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import cache
-from itertools import islice
 from math import hypot, inf, pi
 from typing import assert_never
 
 import numpy as np
 
+from relguide.kernels.contact.detour_delays import RELEASE_PIECES, clear_until_release
 from relguide.kernels.contact.detour_search import MOST_PAIRS, fastest_clear_of_all
 from relguide.kernels.separation.cell import signed_distance
 from relguide.kernels.separation.clearance import SLACK
@@ -28,7 +29,7 @@ from relguide.planning.certificate import (
     judge,
 )
 from relguide.planning.heights import counted, heights_of
-from relguide.planning.intent import TurnTo
+from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.others_table import others_of
 from relguide.planning.phrases import distance
 from relguide.planning.situation import Other, Situation
@@ -39,7 +40,7 @@ from relguide.planning.words import candidates
 from relguide.units import DEG, Metre
 
 MOST_TRIED = 32
-"""Of the paths that arrive just as the slot opens, so many are tried, fewest turns first."""
+"""Of the words to the slot, so many are asked how near they come where no path is clear of all."""
 
 
 def lost_already(situation: Situation) -> tuple[OtherSeparation, str] | None:
@@ -89,17 +90,17 @@ def _separation_now(situation: Situation, other: Other) -> tuple[Metre, Metre]:
             assert_never(other)
 
 
-def just_as_it_opens(situation: Situation) -> tuple[Candidate, Certificate] | None:
+def just_as_it_opens(situation: Situation, until: float) -> tuple[Candidate, Certificate] | None:
     """A path that arrives just as the slot opens: none is faster."""
     found = candidates(situation)
     if not found.reachable_at_release:
         return None
-    radius, leading = situation.pursuer.turn_radius, leader_path(situation)
-    for candidate in islice(found.at_release, MOST_TRIED):
-        certificate = judge(candidate.trajectory, situation, radius, leading)
-        if certificate.holds:
-            return candidate, certificate
-    return None
+    pieces = np.empty((RELEASE_PIECES, 2))
+    others = others_of(situation, found.frame, until=until)
+    if not clear_until_release(found.frame.pose, others, pieces):
+        return None
+    signs, amounts = pieces.T.tolist()
+    return _certified(assemble(situation, found.frame, signs, amounts, ""), situation)
 
 
 def around(situation: Situation, until: float) -> tuple[Candidate, Certificate] | None:
@@ -116,7 +117,11 @@ def around(situation: Situation, until: float) -> tuple[Candidate, Certificate] 
         amounts += [turned, straight]
     _, word, *lasts = row.tolist()
     signs, amounts = signs + SIGN_ROWS[int(word)], amounts + lasts
-    candidate = assemble(situation, frame, signs, amounts, "")
+    return _certified(assemble(situation, frame, signs, amounts, ""), situation)
+
+
+def _certified(candidate: Candidate, situation: Situation) -> tuple[Candidate, Certificate] | None:
+    """A path with its certificate, if it holds."""
     certificate = certify(candidate.trajectory, situation)
     return (candidate, certificate) if certificate.holds else None
 
@@ -143,6 +148,7 @@ def nearest_miss(tried: Iterable[Trajectory], situation: Situation) -> OtherSepa
 def load_kernels() -> None:
     """Call all kernels of a search amid others once."""
     around(LOADING, inf)
+    just_as_it_opens(WAITING, inf)
     lost_already(LOADING)
 
 
@@ -161,3 +167,13 @@ LOADING = Situation(
     ),
 )  # fmt: skip
 """One with others of each kind in the way."""
+WAITING = replace(
+    LOADING,
+    leader=Leader(
+        x=0.0, y=0.0, heading=3.0, tas=200.0,
+        intent=(
+            FlyStraight(duration=600.0), TurnTo(heading=0.0, turn=RIGHT, bank=25.0 * DEG),
+        ),
+    ),
+)  # fmt: skip
+"""One that waits for its slot to open."""

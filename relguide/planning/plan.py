@@ -354,7 +354,7 @@ def _plan_amid_others(situation: Situation, until: float) -> Plan | NoPlan:
         took = (perf_counter_ns() - started) * 1e-6
         return replace(alone, situation=situation, certificate=certificate, compute_time=took)
     bound, until = alone.optimality.lower_bound, until - TO_PUT_DOWN
-    found = just_as_it_opens(situation) or around(situation, until)
+    found = just_as_it_opens(situation, until) or around(situation, until)
     if found is not None:
         return _plan_of((*found, _relaxed(found[0], bound)), situation, started)
     if time_is_up(until):

@@ -34,7 +34,7 @@ _ROUNDING = 1e-9  # as in `piece_clears` [R]
 _NARROW = 1e-6  # a window this short that is undecided counts as too close [R/V_P]
 _MOST_WINDOWS = 4_096
 _DEPTH = 64
-_STEP = 0.01  # while an aircraft turns, the slot is looked at so often [R/V_P]
+_STEP = 1e-3  # while an aircraft turns, it is told from too close so closely [R/V_P]
 _IN_SLOT = 5e-7  # as near as this to a minimum counts as keeping it, in the slot [R]
 _HALVINGS = 50
 
@@ -286,9 +286,15 @@ def forbidden_arrivals(others: Others, follow: float, horizon: float) -> FloatAr
             end = min(piece_end(scene.leader, p), horizon + follow)
             low = begin
             while low < end:
-                turns = scene.leader[p, 4] != 0.0
-                high = min(low + _STEP, end) if turns else end
-                close = _close_between(low, high, others, i, scene, turns)
+                turns, high = scene.leader[p, 4] != 0.0, end
+                if turns:
+                    # it stays clear until then at least
+                    ahead = _slot_from(low, others, i, scene) / (others.alpha + scene.alpha)
+                    high = min(low + max(ahead, _STEP), end)
+                    if ahead >= _STEP:
+                        low = high
+                        continue
+                close = (low, high) if turns else _close_between(low, high, others, i, scene)
                 low = high
                 for w in range(others.window[i], others.window[i + 1]):
                     first = max(close[0], others.counted[w, 0])
@@ -307,13 +313,9 @@ def forbidden_arrivals(others: Others, follow: float, horizon: float) -> FloatAr
 
 @njit(cache=True, nogil=True)
 def _close_between(
-    low: float, high: float, others: Others, i: int, scene: Scene, turns: bool
+    low: float, high: float, others: Others, i: int, scene: Scene
 ) -> tuple[float, float]:
-    """From when until when the slot is too close to one of the others; an empty span if never."""
-    if turns:
-        far = _slot_from(0.5 * (low + high), others, i, scene)
-        least = far - (others.alpha + scene.alpha) * 0.5 * (high - low)
-        return (low, high) if least < 0.0 else (high, low)
+    """From when until when the slot is too close to one that flies straight; empty if never."""
     # the distance from a convex shape that moves straight is a convex function of time
     a, b = low, high
     for _ in range(2 * _HALVINGS):
