@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from math import degrees
 from typing import Any, assert_never
 
-from relguide.flying.aircraft_documents import LinkResult
+from relguide.contract.wire import to_wire
+from relguide.flying.aircraft_documents import ClosestOther, LinkResult
 from relguide.flying.documents import (
     Alert,
     Document,
@@ -166,6 +167,7 @@ def _figures_of(result: LinkResult, flight: FlightSummary, ended: FlightEnded) -
                 "separation_m": loss.separation,
                 "cause": loss.cause,
                 "announced_s": loss.announced[0] if loss.announced else None,
+                **({"other": loss.other} if loss.other else {}),
             }
             for loss in result.losses
         ],
@@ -185,6 +187,7 @@ def _figures_of(result: LinkResult, flight: FlightSummary, ended: FlightEnded) -
             for unable in said
             if isinstance(unable, Unable)
         ],
+        **({"least_other": to_wire(result.least_other[0])} if result.least_other else {}),
     }
 
 
@@ -202,7 +205,20 @@ def failures(flight: FlightSummary) -> tuple[str, ...]:
                         f"The separation fell below {distance(limit)}: they came "
                         f"{too_close(result.least_separation, limit)}."
                     )
+            sentences += [
+                f"{who} {_came_too_close(other)}"
+                for other in result.least_other
+                if other.separation < other.min_separation
+            ]
     return tuple(sentences)
+
+
+def _came_too_close(other: ClosestOther) -> str:
+    """What a pursuer did to another, behind its name; a cell has no minimum."""
+    if other.min_separation == 0.0:
+        return f"flew into the weather {other.ident} at {other.t:.0f} s."
+    limit = distance(other.min_separation)
+    return f"came within {distance(other.separation)} of {other.ident}, closer than {limit}."
 
 
 def _limits(flight: FlightSummary, result: LinkResult) -> tuple[Metre, ...]:

@@ -31,6 +31,7 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
     from relguide.flying.aircraft_documents import (
         AircraftCard,
         AircraftSample,
+        ClosestOther,
         GuidanceSample,
         LinkCard,
         LinkResult,
@@ -65,6 +66,7 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
         | GuidanceSample
         | LinkResult
         | Loss
+        | ClosestOther
     )
     """Parts of documents that also travel alone."""
 

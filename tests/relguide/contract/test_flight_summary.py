@@ -7,6 +7,7 @@ import pytest
 from relguide.contract.flight_summary import failures, figures, summarize
 from relguide.flying.aircraft_documents import (
     AircraftCard,
+    ClosestOther,
     LinkCard,
     LinkResult,
     Loss,
@@ -76,6 +77,23 @@ def test_a_good_flight_has_no_failures() -> None:
 def test_a_lost_separation_is_a_failure() -> None:
     lost = summarize([STARTED, end_of_flight(replace(RESULT, least_separation=4.0 * NM))])
     assert failures(lost) == ("The separation fell below 5.00 NM: they came within 4.00 NM.",)
+
+
+def test_a_loss_to_another_is_a_failure_and_named() -> None:
+    near = ClosestOther(ident="BAW12", separation=4.0 * NM, t=60.0, min_separation=5.0 * NM)
+    inside = ClosestOther(ident="CB1", separation=-50.0, t=70.4, min_separation=0.0)
+    loss = Loss(t=60.0, separation=4.0 * NM, cause="why", announced=(), other="BAW12")
+    result = replace(RESULT, losses=(loss,), least_other=(near,))
+    lost = summarize([STARTED, end_of_flight(result)])
+    assert failures(lost) == ("It came within 4.00 NM of BAW12, closer than 5.00 NM.",)
+    told = figures(lost)
+    assert told["losses"][0]["other"] == "BAW12"
+    assert told["least_other"]["ident"] == "BAW12"
+    assert "least_other" not in figures(summarize([STARTED, ENDED]))
+    wet = summarize([STARTED, end_of_flight(replace(RESULT, least_other=(inside,)))])
+    assert failures(wet) == ("It flew into the weather CB1 at 70 s.",)
+    kept = replace(near, separation=5.0 * NM)
+    assert failures(summarize([STARTED, end_of_flight(replace(RESULT, least_other=(kept,)))])) == ()
 
 
 def test_not_joining_is_a_failure() -> None:

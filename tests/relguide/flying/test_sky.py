@@ -12,6 +12,7 @@ from relguide.flying.documents import (
     Document,
     FlightEnded,
     FlightStarted,
+    ModeChanged,
     PlanChanged,
     SeparationLost,
     Unable,
@@ -250,3 +251,25 @@ def test_others_are_seen_through_the_same_surveillance() -> None:
 def test_results_are_one_for_each_link() -> None:
     (end,) = [d for d in simulate(two_pairs(), plan, until=5.0) if isinstance(d, FlightEnded)]
     assert len(end.results) == 2
+
+
+def test_a_pursuer_that_follows_leaves_for_another_and_comes_back() -> None:
+    """The other crosses six minutes after joining, later than any plan looks."""
+    crossing = replace(CROSSING, x=100_000.0, y=61_000.0)
+    situation = Situation(
+        pursuer=Pursuer(x=0.0, y=-12_000.0, heading=0.0, tas=200.0, max_bank=25.0 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=180.0),
+        slot_distance=11_000.0,
+        min_separation=LIMIT,
+        others=(crossing,),
+    )
+    flight = fly_whole(replace(own_scenario(situation), after_joining=500.0))
+    modes = [(d.t, d.mode) for d in flight.of(ModeChanged)]
+    joined = next(t for t, mode in modes if mode == "follow")
+    left = next(t for t, mode in modes if t > joined)
+    assert left > joined + 120.0
+    said = [d for d in flight.documents if d.t == left and isinstance(d, PlanChanged | Unable)]
+    assert any("BAW12" in d.message and d.reason == "traffic" for d in said)
+    assert separation_lost(flight.documents) == []
+    assert flight.result.least_other[0].separation >= LIMIT
+    assert modes[-1][1] == "follow"
