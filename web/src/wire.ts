@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-19b658413e81";
+export const PROTOCOL = "relguide-e3a122c5396e";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -583,6 +583,8 @@ export interface FlownSituationBody {
   air?: AirBody | null;
   believed_air?: AirBody | null;
   surveillance?: SurveillanceBody | null;
+  ahead?: (LocalFollower | GeodeticFollower)[];
+  followers?: (LocalFollower | GeodeticFollower)[];
 }
 
 /**
@@ -627,6 +629,16 @@ export interface GeodeticDisc {
   lat_deg: number;
   lon_deg: number;
   radius_m: number;
+}
+
+/** A guided aircraft of a queue, at t = 0, placed on the earth (WGS84). */
+export interface GeodeticFollower {
+  ident: string;
+  lat_deg: number;
+  lon_deg: number;
+  heading_deg: number;
+  tas_mps: number;
+  max_bank_deg: number;
 }
 
 /** The aircraft to be joined, at t = 0, placed on the earth (WGS84). */
@@ -873,6 +885,16 @@ export interface LocalDisc {
   x_m: number;
   y_m: number;
   radius_m: number;
+}
+
+/** A guided aircraft of a queue, at t = 0. */
+export interface LocalFollower {
+  ident: string;
+  x_m: number;
+  y_m: number;
+  heading_deg: number;
+  tas_mps: number;
+  max_bank_deg: number;
 }
 
 /** The aircraft to be joined, at t = 0, with what it has declared it will do. */
