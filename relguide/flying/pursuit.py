@@ -176,7 +176,7 @@ class Pursuit:
         if declared is None:
             leader = Heights(altitude=leader.altitude)
         if self.memory.engagement == "engaged":
-            own = Heights(altitude=own.altitude, changes=levels_with(leader))
+            own = Heights(altitude=own.altitude, changes=levels_with(leader, own.altitude))
         climb = fleet.verticals[self.leader].speed
         return replace(seen, own_heights=own, leader_heights=leader, leader_climb=climb)
 

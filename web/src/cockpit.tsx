@@ -7,7 +7,6 @@ import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
 import { Alternatives } from "./panels/alternatives";
 import { Captioned } from "./panels/caption";
-import { Captions } from "./panels/captions";
 import { Efis } from "./panels/efis";
 import { Engage } from "./panels/engage";
 import { Announcer, Events } from "./panels/events";
@@ -43,6 +42,7 @@ const Charts = late(
 );
 const ComparePanel = late(async () => (await import("./compare/panel")).ComparePanel, "");
 const ExportDialog = late(async () => (await import("./panels/export-dialog")).ExportDialog, "");
+const Captions = late(async () => (await import("./panels/captions")).Captions, "");
 const Records = late(async () => (await import("./panels/records")).Records, "");
 
 export function Cockpit(props: { session: Session; actions: Actions }) {

@@ -2,18 +2,21 @@
 
 from dataclasses import replace
 from functools import cache
+from math import hypot
 
 import pytest
 
-from relguide.contract.bodies import NamedSituationBody, situation_from_body
+from relguide.contract.bodies import NamedSituationBody, situation_from_body, situation_from_json
 from relguide.contract.refusal import parse
 from relguide.flying.flown_plan import flown_card
 from relguide.flying.plan_documents import FlownCard, NotFlownCard
 from relguide.flying.scenarios import own_scenario
+from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.cells import Cell, Disc
 from relguide.planning.deadline import end_of
 from relguide.planning.plan import Plan, plan
 from relguide.planning.situation import Situation
-from relguide.units import Metre
+from relguide.units import DEG, Metre
 from tests.flights import Flown, fly_whole, random_start
 from tests.pages import ROOT
 
@@ -129,3 +132,35 @@ def test_straight_behind_the_leader_its_route_is_captured_at_once() -> None:
 def test_a_flight_that_is_late_is_planned_by_what_is_found_by_then() -> None:
     card = flown_card(planned("head-on"), plan, until=end_of(0.0))
     assert card.reason
+
+
+def test_amid_others_it_is_what_is_flown() -> None:
+    situation = situation_from_json((ROOT / "examples/amid.json").read_bytes())[0]
+    made = plan(situation)
+    assert isinstance(made, Plan)
+    card = flown_card(made, plan)
+    assert isinstance(card, FlownCard)
+    flown = fly_whole(own_scenario(situation))
+    assert card.join == pytest.approx(flown.result.join_time, abs=2.0, rel=0.01)
+    alone = flown_card(replace(made, situation=replace(situation, others=())), plan)
+    assert isinstance(alone, FlownCard)
+    assert card.join > alone.join + 5.0
+
+
+def test_the_flight_keeps_clear_of_all_that_the_plan_keeps_clear_of() -> None:
+    cell = Cell(ident="CB1", shape=Disc(x=-5e3, y=25e3, radius=9e3))
+    situation = Situation(
+        pursuer=Pursuer(x=-40e3, y=20e3, heading=90 * DEG, tas=235.0, max_bank=25 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=90 * DEG, tas=200.0),
+        slot_distance=12e3,
+        min_separation=9260.0,
+        others=(cell,),
+    )
+    found = plan(situation)
+    assert isinstance(found, Plan)
+    alone = plan(replace(situation, others=()))
+    assert isinstance(alone, Plan)
+    assert alone.word != found.word  # the cell is in the way
+    card = flown_card(found, plan)
+    assert isinstance(card, FlownCard)
+    assert all(hypot(point.x + 5e3, point.y - 25e3) >= 9e3 for point in card.points)

@@ -21,11 +21,11 @@ export function MapBench({ session, actions }: { session: Session; actions: Acti
       <div class="panels">
         <div class="column">
           <SituationForm map={map} />
-          <OthersForm map={map} />
         </div>
         <div class="column numbers">
           <Remedies map={map} />
           <PlanNumbers session={map.reading} {...twoTimes(map.reading.answered.value)} />
+          <OthersForm map={map} />
         </div>
         <div class="column lists">
           <TakeAlong session={session} actions={actions} />

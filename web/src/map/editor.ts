@@ -21,6 +21,9 @@ const HALF = 384;
 /** What belongs in sight stays so far from the edge, as a part of half of what is seen. */
 const ROOM = 0.8;
 
+/** What is farther from both is not brought into sight with them [m]. */
+const ABOUT = 60 * NM;
+
 interface Place {
   readonly x_m: number;
   readonly y_m: number;
@@ -124,7 +127,13 @@ export function step(editor: Editor, way: -1 | 1): void {
 export function showAll(editor: Editor): void {
   const { now, places } = editor.shown.picture.value;
   if (now === null) return;
-  const { centre, range } = frameOf([now.pursuer, now.slot, ...places]);
+  const { traffic, cells } = editor.situation.value;
+  const about = [...traffic, ...cells].filter((each) =>
+    [now.pursuer, now.leader].some(
+      ({ x_m, y_m }) => Math.hypot(each.x_m - x_m, each.y_m - y_m) < ABOUT,
+    ),
+  );
+  const { centre, range } = frameOf([now.pursuer, now.slot, ...places, ...about]);
   batch(() => {
     editor.centre.value = centre;
     editor.range.value = range;

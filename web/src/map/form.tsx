@@ -201,7 +201,7 @@ export function LevelField(props: {
     return (
       <button
         type="button"
-        class="quiet level"
+        class="quiet"
         onClick={() => change(FIRST_LEVEL * 100 * FT)}
         aria-label={`${name}: give its level`}
       >
@@ -209,20 +209,20 @@ export function LevelField(props: {
       </button>
     );
   return (
-    <>
+    <div class="level">
       <Fields
         numbers={[levelNumber(`${name}: flight level`, "FL", altitude)]}
         change={(level, hand) => change(level, hand)}
       />
       <button
         type="button"
-        class="quiet level"
+        class="quiet"
         onClick={() => change(null)}
         aria-label={`${name}: forget its level`}
       >
         ×
       </button>
-    </>
+    </div>
   );
 }
 

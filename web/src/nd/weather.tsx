@@ -95,8 +95,8 @@ export function weatherLabels({ shown, view }: LayerProps): Label[] {
         id: weatherId(ident),
         at,
         lines: [{ text: ident, colour: WEATHER_COLOUR[urgency] }],
-        side: 0,
-        gap: -9, // over its middle
+        side: 180,
+        gap: 14, // on the map its middle is taken hold of
         size: 18,
         optional: urgency === "none",
       },

@@ -161,12 +161,21 @@ function whenClosest({ when, left }: LeastAhead): string {
 }
 
 function SafetyReadings(props: { numbers: Numbers }) {
+  const { nearestOther } = props.numbers;
   const { least, plan, leastSoFar, wasLost, minSeparation, margin, saving } = props.numbers;
   const known = props.numbers.isIntentKnown;
   return (
     <>
       {least !== null && (
         <Reading label="Least forecast" value={least.miles} unit="NM" note={whenClosest(least)} />
+      )}
+      {nearestOther !== null && (
+        <Reading
+          label="Nearest other"
+          value={nearestOther.miles}
+          unit="NM"
+          note={`${nearestOther.ident} in ${nearestOther.left}${nearestOther.isByHeight ? ", kept by height" : ""}`}
+        />
       )}
       {plan !== null && (
         <Reading

@@ -68,6 +68,15 @@ export interface LeastAhead {
   readonly when: "ahead" | "passed" | "at_join";
 }
 
+/** Least separation from one of the others on the way. */
+export interface OtherAhead {
+  readonly ident: string;
+  readonly miles: string;
+  readonly left: string;
+  /** Whether height keeps them apart, where that is less than the minimum. */
+  readonly isByHeight: boolean;
+}
+
 /** Own ship against the slot: late when it is behind. */
 export interface Timing {
   /** Where the pointer stands: 1 is as late as the scale goes, 0 in the gate. */
@@ -124,6 +133,7 @@ export interface Numbers {
   readonly next: NextPoint | null;
   readonly nextTurn: NextTurnText | null;
   readonly least: LeastAhead | null;
+  readonly nearestOther: OtherAhead | null;
   /** The plan that is flown, and what became of it when there is none. */
   readonly plan: Planned | null;
   readonly state: Guidance;
@@ -189,6 +199,7 @@ export function numbersOf(flight: Moment): Numbers {
     next: guided === null ? null : nextPoint(flight, guided),
     nextTurn: guided === null ? null : nextTurnText(flight, guided),
     least: guided === null ? null : leastAhead(flight, guided),
+    nearestOther: guided === null ? null : nearestOther(flight, guided),
     plan: guided === null ? null : shownPlan(flight),
     state: guidance(flight),
     hasLapsed: hasLapsed(flight),
@@ -315,6 +326,18 @@ function nextTurnText(flight: Moment, reading: PairSample): NextTurnText | null 
   const turn = plan === null ? null : nextTurn(plan, reading.t_s);
   if (turn === null) return null;
   return { size: `${turn.size[0]} ${turn.size.slice(1)}°`, left: formatClock(turn.in) };
+}
+
+/** Of the others that a plan keeps clear of the one that it is nearest to, until that is past. */
+function nearestOther(flight: Moment, reading: PairSample): OtherAhead | null {
+  const planned = shownPlan(flight);
+  const [nearest] = planned?.plan.separation.others ?? [];
+  if (planned === null || nearest === undefined) return null;
+  const left = planned.t_s + nearest.at_s - reading.t_s;
+  if (left < 0) return null;
+  const { ident, least_m, min_separation_m, vertical = [] } = nearest;
+  const isByHeight = vertical.length > 0 && least_m < min_separation_m;
+  return { ident, miles: formatMiles(least_m), left: formatClock(left), isByHeight };
 }
 
 function leastAhead(flight: Moment, reading: PairSample): LeastAhead | null {
