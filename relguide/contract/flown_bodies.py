@@ -11,6 +11,7 @@ from pydantic import Field
 
 from relguide.contract.accepted import Accepted
 from relguide.contract.bodies import NamedSituationBody, WindBody, situation_from_body, wind_of
+from relguide.contract.follower_bodies import Queue, followers_from_body
 from relguide.contract.places import Anchor
 from relguide.contract.refusal import ContractError, Strict
 from relguide.flying.air import GUSTS, ISA_DEVIATION, Air
@@ -92,6 +93,10 @@ class FlownSituationBody(NamedSituationBody):
     """What guidance believes of the air at the start; if left out, what the aircraft measures."""
     surveillance: SurveillanceBody | None = None
     """If left out, the leader is seen as it is."""
+    ahead: Queue
+    """A queue behind the leader, whose last aircraft the pursuer joins; the first one first."""
+    followers: Queue
+    """A queue behind the pursuer, each behind the one before."""
 
 
 def scenario_from_body(body: FlownSituationBody) -> tuple["Scenario", Anchor]:
@@ -113,18 +118,26 @@ def scenario_from_body(body: FlownSituationBody) -> tuple["Scenario", Anchor]:
     own = replace(own, profile=profile, gusts=air.gusts_mps, surveillance=_surveillance(body))
     own = replace(own, believed_air=_believed(body, own.air))
     _expect_own_idents(body, own)
+    own = replace(
+        own,
+        ahead=followers_from_body("ahead", body.ahead, anchor),
+        followers=followers_from_body("followers", body.followers, anchor),
+    )
     world_of(own)
     return own, anchor
 
 
 def _expect_own_idents(body: FlownSituationBody, own: "Scenario") -> None:
-    """Refuse others that are called like the two aircraft of the flight."""
+    """Refuse others that are called like another aircraft of the flight."""
     taken = {own.pursuer_ident: "pursuer", own.leader_ident: "leader"}
-    for name, others in (("traffic", body.traffic), ("cells", body.cells)):
+    queue = (("ahead", body.ahead), ("followers", body.followers))
+    for name, others in (*queue, ("traffic", body.traffic), ("cells", body.cells)):
         for index, other in enumerate(others):
             if other.ident in taken:
                 said = f"is what the {taken[other.ident]} of a flight is called: choose another."
                 raise ContractError([(f"{name}[{index}].ident", said)])
+            if name in ("ahead", "followers"):
+                taken[other.ident] = "follower"
 
 
 def _wind(body: FlownSituationBody, air: AirBody) -> WindBody:

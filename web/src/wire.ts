@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-76eb59b58083";
+export const PROTOCOL = "relguide-ee92f8967ea1";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -585,6 +585,8 @@ export interface FlownSituationBody {
   air?: AirBody | null;
   believed_air?: AirBody | null;
   surveillance?: SurveillanceBody | null;
+  ahead?: (LocalFollower | GeodeticFollower)[];
+  followers?: (LocalFollower | GeodeticFollower)[];
 }
 
 /**
@@ -629,6 +631,16 @@ export interface GeodeticDisc {
   lat_deg: number;
   lon_deg: number;
   radius_m: number;
+}
+
+/** A guided aircraft of a queue, at t = 0, placed on the earth (WGS84). */
+export interface GeodeticFollower {
+  ident: string;
+  lat_deg: number;
+  lon_deg: number;
+  heading_deg: number;
+  tas_mps: number;
+  max_bank_deg: number;
 }
 
 /** The aircraft to be joined, at t = 0, placed on the earth (WGS84). */
@@ -875,6 +887,16 @@ export interface LocalDisc {
   x_m: number;
   y_m: number;
   radius_m: number;
+}
+
+/** A guided aircraft of a queue, at t = 0. */
+export interface LocalFollower {
+  ident: string;
+  x_m: number;
+  y_m: number;
+  heading_deg: number;
+  tas_mps: number;
+  max_bank_deg: number;
 }
 
 /** The aircraft to be joined, at t = 0, with what it has declared it will do. */
