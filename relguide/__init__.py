@@ -47,6 +47,7 @@ if typing.TYPE_CHECKING:
     from relguide.flying.flight import DeclaredLeader as DeclaredLeader
     from relguide.flying.flight import Scenario as Scenario
     from relguide.flying.flight import fly as fly
+    from relguide.flying.followers import Follower as Follower
     from relguide.flying.guidance.settings import Settings as Settings
     from relguide.flying.guidance.settings import load_settings as load_settings
     from relguide.flying.orders import Command as Command
@@ -57,6 +58,8 @@ if typing.TYPE_CHECKING:
     from relguide.flying.orders import LeaderSpeed as LeaderSpeed
     from relguide.flying.orders import PursuerHeading as PursuerHeading
     from relguide.flying.orders import SetEngagement as SetEngagement
+    from relguide.flying.queues import queue_up as queue_up
+    from relguide.flying.queues import soonest_first as soonest_first
     from relguide.flying.recordings.files import load_track as load_track
     from relguide.flying.scenarios import own_scenario as own_scenario
     from relguide.flying.scenarios import scenario as scenario
@@ -149,6 +152,7 @@ _HOMES = {
     "DeclaredLeader": "relguide.flying.flight",
     "Scenario": "relguide.flying.flight",
     "fly": "relguide.flying.flight",
+    "Follower": "relguide.flying.followers",
     "Command": "relguide.flying.orders",
     "IntentKnown": "relguide.flying.orders",
     "LeaderData": "relguide.flying.orders",
@@ -157,6 +161,8 @@ _HOMES = {
     "LeaderSpeed": "relguide.flying.orders",
     "PursuerHeading": "relguide.flying.orders",
     "SetEngagement": "relguide.flying.orders",
+    "queue_up": "relguide.flying.queues",
+    "soonest_first": "relguide.flying.queues",
     "own_scenario": "relguide.flying.scenarios",
     "scenario": "relguide.flying.scenarios",
     "scenario_behind": "relguide.flying.scenarios",
@@ -250,6 +256,7 @@ __all__ = [
     "FlightEnded",
     "FlightStarted",
     "FlyStraight",
+    "Follower",
     "ForecastChanged",
     "Grid",
     "Guided",
@@ -316,11 +323,13 @@ __all__ = [
     "plan_arrays",
     "progress_bar",
     "prove",
+    "queue_up",
     "record",
     "replay",
     "scenario",
     "scenario_behind",
     "simulate",
+    "soonest_first",
     "wind_from",
 ]
 

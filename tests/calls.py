@@ -19,6 +19,7 @@ from relguide import (
     DeclaredLeader,
     Disc,
     FlyStraight,
+    Follower,
     Grid,
     Guided,
     IntentKnown,
@@ -58,10 +59,12 @@ from relguide import (
     plan_arrays,
     progress_bar,
     prove,
+    queue_up,
     record,
     scenario,
     scenario_behind,
     simulate,
+    soonest_first,
     wind_from,
 )
 from relguide.flying.surveillance import EXACT
@@ -226,8 +229,42 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
             "profile": None,
             "believed_air": None,
             "surveillance": EXACT,
+            "ahead": (),
+            "followers": (),
             "duration_limit": 1.0,
             "after_joining": 0.0,
+        },
+    ),
+    "Follower": (
+        Follower,
+        {
+            "ident": "SECOND",
+            "pursuer": SITUATION.pursuer,
+            "aircraft_type": "A306",
+            "weight": 140e3,
+        },
+    ),
+    "queue_up": (
+        queue_up,
+        {
+            "followers": ("A", "B"),
+            "leader": "LEAD",
+            "slot_distance": 12e3,
+            "min_separation": 9260.0,
+            "spacing": 60.0,
+            "intent_known": True,
+            "declared_intent": None,
+        },
+    ),
+    "soonest_first": (
+        soonest_first,
+        {
+            "followers": (Aircraft(**OWN),),
+            "leader": Aircraft(**OWN),
+            "slot_distance": 12e3,
+            "min_separation": 9260.0,
+            "wind": CALM,
+            "planner": plan,
         },
     ),
     "fly": (

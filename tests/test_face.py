@@ -41,6 +41,8 @@ def test_what_is_used_beside_plan_is_loaded_when_asked_for() -> None:
             "flying.air": ("Air",),
             "flying.airframe": ("Airframe", "airframe", "load_airframe"),
             "flying.flight": ("DeclaredLeader", "Scenario", "fly"),
+            "flying.followers": ("Follower",),
+            "flying.queues": ("queue_up", "soonest_first"),
             "flying.guidance.settings": ("Settings", "load_settings"),
             "flying.orders": (
                 "IntentKnown", "LeaderData", "LeaderHeading", "LeaderSpeed", "PursuerHeading",

@@ -43,12 +43,30 @@ def print_flight(flight: FlightSummary, figures: Mapping[str, Any]) -> None:
     for ended in flight.ended:
         table.add_row(clock(ended.t), "end", ended.message)
     console.print(table)
+    if "links" in figures:
+        console.print(_links(figures["links"]))
     summary = Table(box=None, show_header=False, pad_edge=False)
     summary.add_column(style="dim")
     summary.add_column()
     for row in _figure_rows(figures).items():
         summary.add_row(*row)
     console.print(summary)
+
+
+def _links(links: Sequence[Mapping[str, Any]]) -> Table:
+    """How the flight of each pursuer of several went."""
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    for name in ("pursuer", "behind", "joined", "least separation", "separation lost"):
+        table.add_column(name)
+    for link in links:
+        table.add_row(
+            link["pursuer"],
+            link["leader"],
+            f"after {clock(link['join_time_s'])}" if link["joined"] else "no",
+            miles(link["least_separation_m"]),
+            _losses(link["losses"]),
+        )
+    return table
 
 
 def _event(event: SummaryEvent) -> tuple[str, str, str]:

@@ -127,9 +127,22 @@ def _is_of_first(document: PlanChanged, started: list[FlightStarted]) -> bool:
 
 
 def figures(flight: FlightSummary) -> dict[str, Any]:
-    """How the flight of the first link went, under the names of the contract; it has ended."""
+    """How the flight of the first link went, under the names of the contract; it has ended.
+
+    Where there are several links, the same of each is in `links`, with its pursuer and leader.
+    """
     (ended,) = flight.ended
-    result = ended.results[0]
+    first = _figures_of(ended.results[0], flight, ended)
+    if len(ended.results) == 1:
+        return first
+    links = [
+        {"pursuer": result.ident, "leader": result.leader} | _figures_of(result, flight, ended)
+        for result in ended.results
+    ]
+    return first | {"links": links}
+
+
+def _figures_of(result: LinkResult, flight: FlightSummary, ended: FlightEnded) -> dict[str, Any]:
     said = [event for event in flight.events if event.ident == result.ident]
     return {
         "joined": result.joined,

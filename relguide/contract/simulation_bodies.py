@@ -61,19 +61,9 @@ class SimulationUnable(Strict):
     """The same in a sentence."""
 
 
-class SimulationAnswer(Strict):
-    """The figures of a flight, as `relguide fly --json` gives them."""
+class SimulationFigures(Strict):
+    """How the flight of one pursuer went."""
 
-    scenario: str
-    """Its name; empty for a situation of your own."""
-    seed: int
-    """As asked for: with the same version it gives the same flight."""
-    version: str
-    """Of the software that flew it."""
-    reason: Literal["joined", "time_over", "recording_over", "plane_left"]
-    """Why it ended."""
-    message: str
-    """The same as a sentence."""
     joined: bool
     """Whether the pursuer joined."""
     join_time_s: float
@@ -105,14 +95,40 @@ class SimulationAnswer(Strict):
     """Largest error of the spacing along the route while it followed."""
     across_error_m: float
     """Largest distance beside the route while it followed."""
-    wall_s: float
-    """Time it took."""
     losses: list[SimulationLoss]
     """Times at which the minimum separation was lost."""
     alerts: list[SimulationAlert]
     """Given to the pursuer's crew, and their ends."""
     unables: list[SimulationUnable]
     """What guidance could not do."""
+
+
+class SimulationLink(SimulationFigures):
+    """How the flight of one pursuer of several went."""
+
+    pursuer: str
+    """Its ident."""
+    leader: str
+    """Ident of the aircraft that it was to join."""
+
+
+class SimulationAnswer(SimulationFigures):
+    """The figures of a flight, as `relguide fly --json` gives them: of its first pursuer."""
+
+    scenario: str
+    """Its name; empty for a situation of your own."""
+    seed: int
+    """As asked for: with the same version it gives the same flight."""
+    version: str
+    """Of the software that flew it."""
+    reason: Literal["joined", "time_over", "recording_over", "plane_left"]
+    """Why it ended."""
+    message: str
+    """The same as a sentence."""
+    wall_s: float
+    """Time it took."""
+    links: list[SimulationLink] = Field(default_factory=list)
+    """The same of every pursuer, where there are several; else left out."""
 
 
 def expect_unwatched(flights: SimulationRequest) -> None:

@@ -26,6 +26,40 @@ ROUTE_TURNED: Radian = 2.0 * DEG
 """… or once it ends on another heading [rad]."""
 IS_AHEAD = 0.5
 """An aircraft farther off the nose than 60° is not ahead: cos 60°."""
+IN_TRAIL = 0.94
+"""One within 20° of it, on a heading within 20°, is followed in trail: cos 20°."""
+IS_BEHIND = -0.34
+"""One farther off the nose than 110° is behind: cos 110°."""
+
+
+def to_keep_clear_of(one: Pursuit, belief: Belief) -> Belief:
+    """What a pursuer knows, without those that it need not turn away from.
+
+    Those that follow it mind it, while they are behind. In trail, its own speed minds the aircraft
+    ahead.
+
+    Args:
+        one: a pursuer.
+        belief: with all others.
+    """
+    if not (one.queued or one.behind):
+        return belief
+    others = tuple(other for other in belief.others if not _is_minded(one, belief, other))
+    return belief if len(others) == len(belief.others) else replace(belief, others=others)
+
+
+def _is_minded(one: Pursuit, belief: Belief, other: SeenOther) -> bool:
+    own, there = belief.own, other.body
+    east, north = there.x - own.x, there.y - own.y
+    apart = hypot(east, north)
+    if apart < one.assignment.kept_separation + other.margin:
+        return False
+    along = (east * sin(own.heading) + north * cos(own.heading)) / apart
+    if other.ident in one.behind:
+        return along < IS_BEHIND
+    aligned = cos(there.heading - own.heading) > IN_TRAIL
+    in_trail = one.queued and one.memory.mode in ("capture", "follow")
+    return in_trail and other.ident == one.link.leader and along > IN_TRAIL and aligned
 
 
 def mind_ahead(one: Pursuit, pursuits: Sequence[Pursuit], belief: Belief, advice: Advice) -> Advice:

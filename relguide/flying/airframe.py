@@ -155,7 +155,8 @@ class Airframe:
 
     def expect_weight(self, name: str, weight: Kilogram) -> Kilogram:
         """The weight, if the type flies at it; 0 stands for its reference weight."""
-        if number(name, weight) == 0.0:
+        weight = number(name, weight)
+        if weight == 0.0:
             return self.reference_weight
         if not self.least_weight <= weight <= self.most_weight:
             raise ValueError(

@@ -54,7 +54,7 @@ def flown_card(plan: Plan, planner: Planner, *, until: float = inf) -> FlownCard
         return NotFlownCard(reason=str(error))
     fleet = Fleet(world, STEP)
     one = begin_pursuit(world, fleet, world.links[0])
-    belief = Sky(world, fleet).seen_by(one, [one], one.belief(fleet, 0.0))
+    belief = Sky(world, fleet).seen_by(one, (one,), one.belief(fleet, 0.0))
     memory, advice = advise(one.memory, belief, one.assignment, planner if until == inf else timed)
     made = [event for event in advice.events if isinstance(event, NewPlan)]
     if not made or memory.mode in ("heading", "escape"):

@@ -1,6 +1,5 @@
 """Further pursuers of a flight: those of the queue that its pursuer joins, and those behind it."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from relguide.flying.airframe import airframe
@@ -54,9 +53,7 @@ class Follower:
         )
 
 
-def expect_followers(
-    name: str, followers: Sequence[object], taken: set[str]
-) -> tuple[Follower, ...]:
+def expect_followers(name: str, followers: object, taken: set[str]) -> tuple[Follower, ...]:
     """Further pursuers, each with an ident of its own.
 
     Args:
@@ -68,6 +65,8 @@ def expect_followers(
         ValueError: for what is no follower, or has the ident of another.
     """
     found: list[Follower] = []
+    if not isinstance(followers, tuple | list):
+        raise ValueError(f"{name} must be a tuple of Follower, not {followers!r}.")
     for i, follower in enumerate(followers):
         expect(f"{name}[{i}]", follower, Follower)
         assert isinstance(follower, Follower)

@@ -17,6 +17,7 @@ from relguide.flying.logbook import PairNames
 from relguide.flying.perception import Perceived, Perception
 from relguide.flying.queues import behind_head
 from relguide.flying.seen_others import SeenOther
+from relguide.flying.slots import line_of
 from relguide.flying.world import Link, World
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.flight_records import Body, Drift, move_to
@@ -106,6 +107,8 @@ class Pursuit:
     """Which of the fleet guidance goes by: the leader, or in a queue its head."""
     ahead: int
     """Which of the fleet is the link's leader."""
+    behind: frozenset[str]
+    """Idents of all that follow this pursuer, or one that does."""
     assignment: Assignment
     track: FlownTrack
     perception: Perception | None
@@ -173,7 +176,7 @@ class Pursuit:
         if declared is None:
             leader = Heights(altitude=leader.altitude)
         if self.memory.engagement == "engaged":
-            own = Heights(altitude=own.altitude, changes=levels_with(leader))
+            own = Heights(altitude=own.altitude, changes=levels_with(leader, own.altitude))
         climb = fleet.verticals[self.leader].speed
         return replace(seen, own_heights=own, leader_heights=leader, leader_climb=climb)
 
@@ -273,6 +276,11 @@ def begin_pursuit(
         pursuer=i,
         leader=j,
         ahead=world.index(link.leader),
+        behind=frozenset(
+            other.pursuer
+            for other in world.links
+            if other is not link and link in line_of(other, world.links)
+        ),
         assignment=assignment,
         track=track,
         perception=perception,

@@ -9,12 +9,13 @@ one is not handed down to the next.
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from relguide.flying.slots import line_of
 from relguide.flying.world import Aircraft, Declared, Link
 from relguide.kernels.base.angles import wrap
-from relguide.planning.aircraft import Leader, Pursuer
-from relguide.planning.inputs import expect
+from relguide.planning.aircraft import Leader, Pursuer, expect_distance
+from relguide.planning.inputs import expect, expect_function, text
 from relguide.planning.intent import IntentPiece
 from relguide.planning.limits import DISTANCE, SPACING
 from relguide.planning.plan import Plan, Planner, plan
@@ -73,7 +74,12 @@ def queue_up(
         intent_known: whether they know the head's intent.
         declared_intent: what the head declared, if that is not what it flies.
     """
-    before = [leader, *followers]
+    if isinstance(followers, str) or not isinstance(followers, Sequence):
+        raise ValueError(f"followers must be a tuple of idents, not {followers!r}.")
+    before = [
+        text("leader", leader),
+        *(text(f"followers[{i}]", ident) for i, ident in enumerate(followers)),
+    ]
     return tuple(
         Link(
             pursuer=follower,
@@ -84,7 +90,7 @@ def queue_up(
             intent_known=intent_known,
             declared_intent=declared_intent if ahead == leader else None,
         )
-        for ahead, follower in zip(before, followers, strict=False)
+        for ahead, follower in pairwise(before)
     )
 
 
@@ -110,7 +116,13 @@ def soonest_first(
     Returns:
         Their idents, the one next to the leader first. Those without a path come last.
     """
+    if not isinstance(followers, tuple | list):
+        raise ValueError(f"followers must be a tuple of Aircraft, not {followers!r}.")
+    for i, follower in enumerate(followers):
+        expect(f"followers[{i}]", follower, Aircraft)
     expect("leader", leader, Aircraft)
+    slot_distance = expect_distance("slot_distance", slot_distance)
+    expect_function("planner", planner)
     left, order = list(followers), list[str]()
     while left:
         behind = min((len(order) + 1) * slot_distance, DISTANCE.high)

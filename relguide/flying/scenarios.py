@@ -24,6 +24,7 @@ from math import cos, sin
 
 from relguide.flying.air import STANDARD_AIR, Air
 from relguide.flying.airframe import airframe
+from relguide.flying.amid_scenarios import crossing_stream, thunderstorm_line
 from relguide.flying.dispersion import random_situation
 from relguide.flying.envelope import level_for
 from relguide.flying.flight import DEFAULT_TYPE, Scenario
@@ -264,6 +265,8 @@ TITLES = {
     "leader_descends": "A leader that descends",
     "stream_of_five": "A stream of five",
     "overtaking_queue": "A faster aircraft joins a queue",
+    "crossing_stream": "A stream crosses the way",
+    "thunderstorm_line": "A line of thunderstorms",
 }
 DESCRIPTIONS = {
     "fig_6a": "The leader turns right to 135° without announcement; the pursuer, 40 km behind and "
@@ -278,6 +281,9 @@ DESCRIPTIONS = {
     "a minute behind the one before.",
     "overtaking_queue": "A pursuer that flies 245 m/s from far behind joins the end of a queue of "
     "three behind a leader that flies 200 m/s.",
+    "crossing_stream": "Six aircraft in a row cross the way to the leader; the pursuer passes "
+    "between two of them and keeps 5 NM from each.",
+    "thunderstorm_line": "Three cells that move and grow lie in the way; the pursuer finds a gap.",
 }
 SCENARIOS: Mapping[str, NamedScenario] = {
     name: NamedScenario(
@@ -294,6 +300,12 @@ SCENARIOS: Mapping[str, NamedScenario] = {
         ("leader_descends", leader_descends, _report_nothing),
         ("stream_of_five", lambda: _named("stream_of_five", stream_of_five), _report_nothing),
         ("overtaking_queue", lambda: _named("overtaking_queue", overtaking_queue), _report_nothing),
+        ("crossing_stream", lambda: _named("crossing_stream", crossing_stream), _report_nothing),
+        (
+            "thunderstorm_line",
+            lambda: _named("thunderstorm_line", thunderstorm_line),
+            _report_nothing,
+        ),
     )
 }
 """All of them, by name."""

@@ -10,7 +10,7 @@ from functools import partial
 from itertools import count
 from typing import get_args
 
-from relguide.flying.aircraft_ahead import mind_ahead, watch_ahead
+from relguide.flying.aircraft_ahead import mind_ahead, to_keep_clear_of, watch_ahead
 from relguide.flying.aircraft_documents import AircraftCard, LinkCard
 from relguide.flying.belief import Belief
 from relguide.flying.braking import learn_braking
@@ -262,6 +262,7 @@ def _guide(
     yield from doubt_leader(one, fleet, t)
     belief = sky.seen_by(one, pursuits, one.belief(fleet, t))
     one.seen_others = belief.others
+    belief = to_keep_clear_of(one, belief)
     one.track.add(belief.leader, belief.drift, t)
     yield from watch_leader(one, belief)
     yield from watch_ahead(one, belief)

@@ -122,14 +122,21 @@ def around(situation: Situation, until: float) -> tuple[Candidate, Certificate] 
 
 
 def nearest_miss(tried: Iterable[Trajectory], situation: Situation) -> OtherSeparation:
-    """What comes in the way of the path that keeps clear best, of those tried."""
+    """What comes in the way of the path that keeps clear best, if it keeps clear of the leader.
+
+    Args:
+        tried: paths to the slot, none clear of all; the first keeps clear of the leader.
+        situation: for which they were made.
+    """
     radius, leading = situation.pursuer.turn_radius, leader_path(situation)
+    limit = situation.min_separation - SLACK * radius
     judged = [judge(trajectory, situation, radius, leading) for trajectory in tried]
-    return max((certificate.others[0] for certificate in judged), key=_margin)
-
-
-def _margin(other: OtherSeparation) -> Metre:
-    return other.lower_bound - other.min_separation
+    missed = [
+        certificate.others[0]
+        for k, certificate in enumerate(judged)
+        if (k == 0 or certificate.lower_bound >= limit) and not certificate.others[0].holds
+    ]
+    return max(missed, key=lambda other: other.lower_bound - other.min_separation)
 
 
 @cache

@@ -34,6 +34,8 @@ ALTIMETRY: Metre = 200.0 * FT
 
 JOINED_HEIGHT: Metre = 300.0 * FT
 """A pursuer so near the level of its leader has joined it [m]."""
+SOUGHT = 3_600
+"""Seconds in which a level is reached."""
 FASTEST: MetrePerSecond = 6_000.0 * FT / 60.0
 """No two aircraft come nearer in height than this [m/s]."""
 
@@ -146,6 +148,18 @@ def counted(own: Heights, other: Heights) -> tuple[Interval, ...]:
     if own.altitude is None or other.altitude is None:
         return ALWAYS
     return tuple((since, until) for since, until, certain, _ in _spans(own, other) if not certain)
+
+
+def time_to_level(own: Heights, leader: Heights) -> Second:
+    """How long it takes a pursuer to come to its leader's level by what both are to do [s].
+
+    To a whole second; 0 where a level is not known, `SOUGHT` where it takes longer.
+    """
+    for seconds in range(SOUGHT):
+        here, there = own.at(float(seconds)), leader.at(float(seconds))
+        if here is None or there is None or abs(here - there) <= JOINED_HEIGHT:
+            return float(seconds)
+    return float(SOUGHT)
 
 
 def kept_by_height(own: Heights, other: Heights, until: Second) -> tuple[KeptByHeight, ...]:

@@ -19,9 +19,15 @@ from relguide.planning.limits import ALTITUDE
 from relguide.planning.situation import Situation
 from relguide.units import FT, Metre, MetrePerSecond, Second
 
-LEVEL_RATE: MetrePerSecond = 1_000.0 * FT / 60.0
-"""How fast a pursuer climbs or descends by plan [m/s]: 1,000 ft/min, which airliners do at any
-level."""
+CLIMB_RATE: MetrePerSecond = 1_000.0 * FT / 60.0
+"""How fast a pursuer climbs by plan [m/s]: 1,000 ft/min, which airliners do at any level."""
+DESCENT_RATE: MetrePerSecond = 2_000.0 * FT / 60.0
+"""How fast it descends by plan [m/s]: 2,000 ft/min, near idle."""
+
+
+def level_rate(own: Metre, to: Metre) -> MetrePerSecond:
+    """How fast a pursuer changes its level by plan [m/s]."""
+    return CLIMB_RATE if to > own else DESCENT_RATE
 
 
 def chooses_level(situation: Situation) -> bool:
@@ -34,15 +40,21 @@ def chooses_level(situation: Situation) -> bool:
 
 def with_leader(situation: Situation) -> Situation:
     """To the leader's level at once, and then as the leader does."""
-    return _flying(situation, levels_with(heights_of(situation.leader)))
+    own, leader = situation.pursuer.altitude, heights_of(situation.leader)
+    return _flying(situation, levels_with(leader, own))
 
 
-def levels_with(leader: Heights) -> tuple[LevelChange, ...]:
-    """The changes of level that `with_leader` makes."""
-    if leader.altitude is None or (leader.changes and leader.changes[0].at == 0.0):
+def levels_with(leader: Heights, own: Metre | None) -> tuple[LevelChange, ...]:
+    """The changes of level that `with_leader` makes.
+
+    Args:
+        leader: whose level is flown to.
+        own: the pursuer's level now [m].
+    """
+    altitude = leader.altitude
+    if altitude is None or own is None or (leader.changes and leader.changes[0].at == 0.0):
         return leader.changes
-    at_once = LevelChange(at=0.0, to_altitude=leader.altitude, rate=LEVEL_RATE)
-    return (at_once, *leader.changes)
+    return (_change(0.0, own, altitude), *leader.changes)
 
 
 def meanwhile(situation: Situation) -> tuple[Metre, ...]:
@@ -69,12 +81,12 @@ def changing_late(situation: Situation, level: Metre, time: Second) -> Situation
     own, final = situation.pursuer.altitude, heights_of(situation.leader).final_altitude
     assert own is not None
     assert final is not None
-    at = time - START_TOLERANCE - abs(final - level) / LEVEL_RATE
-    if at < abs(level - own) / LEVEL_RATE:
+    at = time - START_TOLERANCE - abs(final - level) / level_rate(level, final)
+    if at < abs(level - own) / level_rate(own, level):
         return None
-    levels = [LevelChange(at=at, to_altitude=final, rate=LEVEL_RATE)]
+    levels = [_change(at, level, final)]
     if level != own:
-        levels.insert(0, LevelChange(at=0.0, to_altitude=level, rate=LEVEL_RATE))
+        levels.insert(0, _change(0.0, own, level))
     return _flying(situation, tuple(levels))
 
 
@@ -82,6 +94,10 @@ def is_at_level(situation: Situation, time: Second) -> bool:
     """Whether the pursuer is at the leader's level at a time [s], by what both declare."""
     own, leader = heights_of(situation.pursuer).at(time), heights_of(situation.leader).at(time)
     return own is None or leader is None or abs(own - leader) <= JOINED_HEIGHT
+
+
+def _change(at: Second, own: Metre, to: Metre) -> LevelChange:
+    return LevelChange(at=at, to_altitude=to, rate=level_rate(own, to))
 
 
 def _flying(situation: Situation, levels: tuple[LevelChange, ...]) -> Situation:

@@ -11,7 +11,7 @@ from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.aircraft import Traffic
 from relguide.planning.cells import Cell
 from relguide.planning.certificate import AROUND_CELLS, FOLLOWED, cell_shape
-from relguide.planning.heights import Heights, counted, heights_of
+from relguide.planning.heights import Heights, counted, heights_of, time_to_level
 from relguide.planning.situation import Other, Situation
 from relguide.planning.slot import SlotFrame
 from relguide.planning.tables import leader_table, pieces_table
@@ -70,7 +70,11 @@ def others_of(situation: Situation, frame: SlotFrame, *, until: float = inf) -> 
         t_release=frame.t_release,
         until=until,
     )
-    return others._replace(forbidden=forbidden_arrivals(others, FOLLOWED / scale, HORIZON / scale))
+    forbidden = forbidden_arrivals(others, FOLLOWED / scale, HORIZON / scale)
+    if situation.pursuer.levels:  # it joins at the leader's level
+        early = (-1.0, time_to_level(own, leading) / scale)
+        forbidden = np.concatenate((np.array([early]), forbidden))
+    return others._replace(forbidden=forbidden)
 
 
 def _firsts(parts: list[FloatArray]) -> np.ndarray:

@@ -163,11 +163,13 @@ class Plan:
     def __repr__(self) -> str:
         """Three lines: the path, the separation, the proof."""
         found, proof = self.certificate, self.optimality
+        spans = ", ".join(f"{kept[0]:.0f} to {kept[1]:.0f} s" for kept in found.vertical)
+        height = f",\n     1,000 ft keep them apart from {spans}" if spans else ""
         return (
             f"Plan({self.word} by {self.planner}: joins in {self.time_to_converge:.1f} s, "
             f"{pieces_text(self.trajectory)},\n"
             f"     least separation {found.least_separation:.1f} m at {found.at_time:.1f} s, "
-            f"proved above {found.lower_bound:.1f} m,\n"
+            f"proved above {found.lower_bound:.1f} m{height},\n"
             f"     proof: {proof.proof}, no plan is faster than {proof.lower_bound:.1f} s)"
         )
 
@@ -467,7 +469,7 @@ def _plan_by_level(situation: Situation, until: float) -> Plan | NoPlan:
         return best
     if isinstance(first, NoPlan):
         return first
-    return _later_at_level(first)
+    return _later_at_level(first, until)
 
 
 def _by_way_of(level: Metre, situation: Situation, time: Second, until: float) -> Iterator[Plan]:
@@ -490,21 +492,19 @@ def _joins_at_level(answer: Plan) -> bool:
     return is_at_level(answer.situation, answer.time_to_converge)
 
 
-def _later_at_level(early: Plan) -> Plan | NoPlan:
+def _later_at_level(early: Plan, until: float) -> Plan | NoPlan:
     """A path that joins once the pursuer is at the leader's level, where the fastest is earlier."""
-    situation, radius = early.situation, early.situation.pursuer.turn_radius
-    found = candidates(situation)
-    for candidate in found.later:
-        if is_at_level(situation, candidate.time_to_converge):
-            certificate = judge(candidate.trajectory, situation, radius, path_of(found.leader))
-            if certificate.holds:
-                return replace(
-                    early,
-                    trajectory=candidate.trajectory,
-                    word=candidate.word,
-                    certificate=certificate,
-                    optimality=replace(early.optimality, proof="bound"),
-                )
+    situation = early.situation
+    found = around(situation, until)
+    if found is not None:
+        candidate, certificate = found
+        return replace(
+            early,
+            trajectory=candidate.trajectory,
+            word=candidate.word,
+            certificate=certificate,
+            optimality=replace(early.optimality, proof="bound"),
+        )
     settled, joins = heights_of(situation.pursuer).settled(), early.time_to_converge
     return NoPlan(
         reason=Reason.LEVEL,

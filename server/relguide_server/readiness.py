@@ -43,6 +43,8 @@ PLANNED_WITH = {
 }
 """Steps a planner needs for any situation; without the limit "flying" is enough."""
 
+AMID = "amid"
+"""The step that situations with others need besides."""
 ON_DEMAND = ("proofs", "networks", "tree")
 """Steps that are compiled when a request first needs them."""
 USUAL_WAIT = 10
@@ -58,6 +60,11 @@ def steps_for(settings: ServiceSettings) -> tuple[str, ...]:
 def needed_for(settings: ServiceSettings) -> tuple[str, ...]:
     """Those of them without which it is not ready."""
     return ("flying", *PLANNED_WITH[settings.planner])
+
+
+def _needed_for(situation: Situation, name: str) -> tuple[str, ...]:
+    """The steps that a planner of this name needs for a situation beside "flying"."""
+    return (*PLANNED_WITH.get(name, ()), *((AMID,) if situation.others else ()))
 
 
 class NowPreparing(BaseModel):
@@ -210,8 +217,8 @@ class Preparation:
             Refusal: 503, as in `require`.
         """
         self.require("flying")
-        steps = PLANNED_WITH.get(name, ())
-        if not self.has(*steps) and plan_at_once(situation) is None:
+        steps = _needed_for(situation, name)
+        if not self.has(*steps) and (situation.others or plan_at_once(situation) is None):
             self.require(*steps)
 
     def guard(self, planner: Planner, name: str, *, waiting: bool) -> Planner:
@@ -222,14 +229,14 @@ class Preparation:
             name: its name; empty if it has none.
             waiting: whether all other plans wait, as in a flight, or are refused.
         """
-        steps = PLANNED_WITH.get(name, ())
 
         def guarded(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPlan:
+            steps = _needed_for(situation, name)
             if not self.has("flying", *steps):
                 if waiting:
                     self.wait("flying")
                 self.require("flying")
-                found = plan_at_once(situation)
+                found = None if situation.others else plan_at_once(situation)
                 if found is not None:
                     return found
                 if waiting:

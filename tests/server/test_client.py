@@ -23,7 +23,7 @@ from relguide.flying.documents import FlightStarted, Sample
 from relguide.flying.plan_documents import NoPlanCard, PathPoint, PlanCard
 from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
-from tests.bodies import BODY
+from tests.bodies import AMID, BODY
 from tests.server.records.test_writer import wait_for
 from tests.server.serving import ideal_app, ideal_catalogue, serve
 from tests.situations import situations
@@ -90,6 +90,15 @@ def test_a_plan_is_the_librarys_own(client: Client) -> None:
         assert theirs.alternatives
     far = {**BODY, "leader": {**BODY["leader"], "tas_mps": 300.0}}
     assert isinstance(client.plan(far, max_ms=10_000), NoPlanCard)
+
+
+def test_others_are_asked_about_and_answered(client: Client) -> None:
+    asked, _ = situation_from_json(AMID)
+    card = client.plan(asked, max_ms=10_000)
+    assert isinstance(card, PlanCard)
+    assert {other.ident for other in card.separation.others} == {"BAW12", "AFR7", "CB1", "CB2"}
+    answers = list(client.plan_batch([asked, SITUATION]))
+    assert [len(one.separation.others) for one in answers if isinstance(one, PlanCard)] == [4, 0]
 
 
 PLACED = {

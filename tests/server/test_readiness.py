@@ -15,8 +15,10 @@ from relguide_server.readiness import ON_DEMAND, Preparation, steps_for
 from relguide_server.settings import ServiceSettings
 
 from benchmarks.deadline import draw
+from relguide.contract.bodies import situation_from_json
 from relguide.planning.plan import NoPlan, Plan, Reason, plan, plan_at_once
 from relguide.warm_up import STEPS, Preparing, WarmUpError
+from tests.bodies import AMID
 from tests.server.serving import TestClient
 from tests.situations import golden
 
@@ -126,6 +128,23 @@ def test_a_first_start_answers_what_it_can(compiled: Compiling) -> None:
         patient = client.post("/api/v1/plans?max_ms=10000", json=LIMITED)
         assert patient.json()["status"] == "planned"
         assert client.get("/api/v1/areas", params=flight).status_code == 503
+
+
+def test_only_who_plans_amid_others_waits_for_what_that_needs(compiled: Compiling) -> None:
+    preparation = Preparation(STEPS_SERVED)
+    with TestClient(create_app(ServiceSettings(workers=0), preparation=preparation)) as client:
+        compiled("flying", "limited", title=STEPS["amid"].title)
+        _until(lambda: preparation.ready)
+        assert client.post("/api/v1/plans", json=LIMITED).json()["status"] == "planned"
+        refused = client.post("/api/v1/plans", json=AMID)
+        assert refused.status_code == 503
+        assert STEPS["amid"].title in refused.json()["detail"]
+        situation = situation_from_json(AMID)[0]
+        with pytest.raises(Refusal):
+            preparation.guard(plan, "exact", waiting=False)(situation)
+        compiled("flying", "limited", "amid")
+        _until(lambda: preparation.has("amid"))
+        assert client.post("/api/v1/plans", json=AMID).json()["status"] == "planned"
 
 
 def test_proofs_are_compiled_once_a_request_asks_for_one(compiled: Compiling) -> None:

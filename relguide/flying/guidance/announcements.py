@@ -227,7 +227,8 @@ def reason_sentence(reason: PlanReason, belief: Belief, in_the_way: str = "") ->
 def summary(plan: Plan, joins_in: Second) -> str:
     """Its word, when it joins and the separation it keeps, in a clause."""
     least = plan.certificate.least_separation / NM
-    return f"{plan.word} joins in {clock(joins_in)} and keeps {least:.1f} NM"
+    height = " or 1,000 ft" if plan.certificate.vertical else ""
+    return f"{plan.word} joins in {clock(joins_in)} and keeps {least:.1f} NM{height}"
 
 
 def promise_sentence(joins_in: Second, was_in: Second) -> str:

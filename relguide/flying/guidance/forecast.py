@@ -17,7 +17,7 @@ from relguide.kernels.flight.ahead import AT, LEAST, NEVER, RIGHT, fly_ahead
 from relguide.kernels.flight.flight_records import Body, Drift
 from relguide.kernels.flight.guide import Course, Progress
 from relguide.kernels.flight.path import lay_path
-from relguide.planning.heights import ALWAYS, JOINED_HEIGHT
+from relguide.planning.heights import ALWAYS, time_to_level
 from relguide.units import DEG, Metre, Radian, Second
 
 STEPS = 4
@@ -28,8 +28,6 @@ STRAIGHT_FOR = 30
 """… nor than this in time [s]."""
 FOLLOWED: Second = 150.0
 """How long a forecast goes on once it has joined [s]."""
-SOUGHT = 3600
-"""Seconds in which the leader's level is reached."""
 NO_COURSE = Course(
     lay_path(0.0, 0.0, 0.0, np.zeros((0, 2)), 1.0, 0.0, 1.0), 0.0, 0.0, 0.0, Drift(0.0, 0.0), NEVER
 )
@@ -155,7 +153,9 @@ def forecast(
     if belief.counts != ALWAYS:
         _leave_out(account, belief)
     if join_time != NEVER and not belief.at_level:
-        join_time = max(join_time, belief.t + time_to_level(belief))
+        join_time = max(
+            join_time, belief.t + time_to_level(belief.own_heights, belief.leader_heights)
+        )
     suffix = np.minimum.accumulate(account[::-1, LEAST])[::-1]
     return Forecast(belief.t, own, leader, account, suffix, join_time)
 
@@ -167,16 +167,6 @@ def _leave_out(account: FloatArray, belief: Belief) -> None:
     for begin, end in belief.counts:
         counts |= (since + 1.0 >= begin) & (since <= end)
     account[~counts, LEAST] = inf
-
-
-def time_to_level(belief: Belief) -> Second:
-    """How long it takes to come to the leader's level, by what both are to do [s]."""
-    own, leader = belief.own_heights, belief.leader_heights
-    for seconds in range(SOUGHT):
-        here, there = own.at(float(seconds)), leader.at(float(seconds))
-        if here is None or there is None or abs(here - there) <= JOINED_HEIGHT:
-            return float(seconds)
-    return float(SOUGHT)
 
 
 def rows_to_draw(rows: FloatArray) -> list[int]:

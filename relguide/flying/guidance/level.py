@@ -11,7 +11,7 @@ from typing import NamedTuple
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.memory import Memory
-from relguide.planning.levels import LEVEL_RATE
+from relguide.planning.levels import CLIMB_RATE, level_rate
 from relguide.units import FT, Metre, MetrePerSecond, Second
 
 NEAR: Metre = 100.0 * FT
@@ -49,13 +49,13 @@ def follow_level(memory: Memory, belief: Belief, assignment: Assignment) -> Leve
     if memory.engagement != "engaged" or own is None or leader is None or height is None:
         return None
     if memory.mode == "escape" and belief.counts and belief.counts[0][0] > 0.0:
-        return LevelAsked(own, LEVEL_RATE)
+        return LevelAsked(own, CLIMB_RATE)
     if not belief.intent_known and not _is_time(memory, belief, height, assignment):
         return None
     declared = [change for change in belief.leader_heights.changes if change.at <= 0.0]
     climb = belief.leader_climb
     if abs(climb) < CLIMBS and not declared:
-        return None if abs(height) <= NEAR else LevelAsked(leader, LEVEL_RATE)
+        return None if abs(height) <= NEAR else LevelAsked(leader, level_rate(own, leader))
     to = declared[0].to_altitude if declared else leader + AHEAD * climb
     way = 1.0 if to > own else -1.0
     if abs(to - own) <= NEAR:

@@ -7,7 +7,7 @@ from relguide.flying.guidance.amid import others_after
 from relguide.flying.guidance.assignment import Assignment
 from relguide.kernels.base.angles import wrap
 from relguide.planning.aircraft import Leader, Pursuer
-from relguide.planning.heights import ALWAYS
+from relguide.planning.heights import ALWAYS, Heights
 from relguide.planning.intent import ChangeLevel, FlyStraight, IntentPiece, LevelChange, TurnTo
 from relguide.planning.levels import levels_with
 from relguide.planning.limits import MAX_PIECES
@@ -76,7 +76,7 @@ def _at_levels(
     if intent is None:
         return pursuer, leader
     leader = replace(leader, altitude=heights, intent=intent)
-    levels = levels_with(replace(belief.leader_heights, altitude=heights, changes=changes))
+    levels = levels_with(Heights(altitude=heights, changes=changes), own)
     return replace(pursuer, altitude=own, levels=levels), leader
 
 

@@ -28,7 +28,7 @@ from relguide_server.jobs.worker_pool import Kind, WorkerPool
 from relguide_server.planning import tasks as jobs
 from relguide_server.planning.client_budgets import SHORT, ClientBudgets, takes_long
 from relguide_server.planning.tasks import PlanReply
-from relguide_server.readiness import Preparation
+from relguide_server.readiness import AMID, Preparation
 
 AT_ONCE: Second = 1e-3
 """How long a situation is tried on the event loop; of 4,000 extreme ones none took 3 ms."""
@@ -130,6 +130,8 @@ class PlanService:
         situation, anchor = jobs.read_situation(body)
         if not self._is_own(wish) or len(situation.others) > FEW:
             return None
+        if situation.others:
+            self._preparation.require(AMID)
         if not self._preparation.can_plan_by(self.name):
             found = jobs.plan_situation(situation, anchor, self._guarded, (), None)
         elif self.name != "exact":

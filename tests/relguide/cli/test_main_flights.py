@@ -12,6 +12,7 @@ from relguide.cli.flight_tables import print_flight
 from relguide.contract.flight_summary import summarize
 from relguide.contract.recorder import replay
 from relguide.flying.documents import EngagementChanged, FlightStarted, LeaderChanged, Sample
+from relguide.flying.scenarios import SCENARIOS
 from tests.command_line import NEAR, UNREACHABLE, Run, process, write
 
 FIGURES = {
@@ -264,7 +265,8 @@ def test_a_rate_without_whole_steps_or_a_recording_is_misuse(
 def test_a_mistyped_scenario_is_guessed_and_all_are_listed(run: Run, name: str, said: str) -> None:
     code, out, err = run("fly", name)
     assert (code, out) == (2, "")
-    assert f"(did you mean {said}?); there are fig_6a, fig_6b, recorded_leader, random." in err
+    listed = ", ".join([*SCENARIOS, "random"])
+    assert f"(did you mean {said}?); there are {listed}." in err
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from pydantic import TypeAdapter
@@ -9,7 +10,8 @@ from pydantic import TypeAdapter
 from relguide import LEFT, RIGHT, Arc, NoPlan, Situation, check, plan
 from relguide.contract.answers import answer, read_include
 from relguide.contract.bodies import situation_from_json
-from relguide.contract.messages import PlanAnswer
+from relguide.contract.messages import PlanAnswer, plan_from_wire
+from relguide.flying.plan_documents import NoPlanCard
 from relguide.planning.plan import Plan
 from relguide.units import DEG
 from tests.bodies import BODY, change, on_earth
@@ -240,3 +242,44 @@ def test_the_points_of_a_flight_lie_on_the_earth_if_the_situation_does() -> None
     first = reply["flown"]["points"][0]
     assert (first["lat_deg"], first["lon_deg"]) == pytest.approx((49.4, 1.4), abs=1e-9)
     assert first["heading_deg"] == pytest.approx(90.0, abs=1e-6)
+
+
+# --- amid others --------------------------------------------------------------------------------
+
+
+def in_the_slot() -> dict[str, Any]:
+    """Another aircraft flies 2 km ahead of the slot, with the leader's intent."""
+    flying = {**BODY["leader"], "ident": "EZY7", "x_m": -10_000}
+    return {**BODY, "traffic": [flying]}
+
+
+def test_no_plan_says_who_is_in_the_way_and_what_helps() -> None:
+    situation, anchor = situation_from_json(in_the_slot())
+    reply = answer(situation, anchor, plan)
+    assert (reply["status"], reply["reason"]) == ("no_plan", "traffic")
+    conflict = reply["conflict"]
+    assert conflict["ident"] == "EZY7"
+    assert conflict["least_m"] < conflict["min_separation_m"] == 9_260.0
+    assert "EZY7" in reply["message"]
+    card = plan_from_wire(reply)
+    assert isinstance(card, NoPlanCard)
+    assert card.conflict is not None
+    assert card.conflict.ident == "EZY7"
+    for remedy in reply["remedies"]:
+        assert remedy["kind"] == "slot_distance"
+        other = {**in_the_slot(), "slot_distance_m": remedy["slot_distance_m"]}
+        helped = answer(*situation_from_json(other), plan)
+        assert helped["time_to_converge_s"] == pytest.approx(remedy["time_to_converge_s"])
+
+
+def test_an_alternative_names_whom_it_comes_too_close_to() -> None:
+    free = answer(*situation_from_json(BODY), plan)
+    straight = free["segments"][1]
+    x, y = ((straight["start"][axis] + straight["end"][axis]) / 2.0 for axis in ("x_m", "y_m"))
+    cell = {"ident": "CB9", "disc": {"x_m": x, "y_m": y, "radius_m": 15_000}}
+    amid = answer(*situation_from_json({**BODY, "cells": [cell]}), plan, include=["alternatives"])
+    assert amid["time_to_converge_s"] > free["time_to_converge_s"]
+    lost = [other for other in amid["alternatives"] if other["rejected"] == "separation"]
+    assert free["word"] in [other["word"] for other in lost]
+    assert {other["ident"] for other in lost} == {"CB9"}
+    assert all("into CB9 at " in other["why"] for other in lost)

@@ -100,6 +100,20 @@ def test_of_several_links_each_is_judged_by_its_own_limit() -> None:
     )
 
 
+def test_of_several_links_each_has_its_figures_and_one_alone_has_no_list() -> None:
+    second = replace(RESULT, ident="C", leader="A", join_time=700.0)
+    told = rare_documents(5.0, "C", "A")
+    found = figures(summarize([STARTED, *told, end_of_flight(RESULT, second)]))
+    alone = figures(summarize([STARTED, *told, ENDED]))
+    assert "links" not in alone
+    links = found.pop("links")
+    assert found == alone
+    assert [(one["pursuer"], one["leader"]) for one in links] == [("A", "B"), ("C", "A")]
+    assert links[0] == {"pursuer": "A", "leader": "B"} | alone
+    assert links[1]["join_time_s"] == 700.0
+    assert links[1]["unables"] != alone["unables"] == []
+
+
 def test_a_plan_that_is_no_news_is_not_in_the_story() -> None:
     plan = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
     flight = summarize([STARTED, plan, replace(plan, announced=False), ENDED])

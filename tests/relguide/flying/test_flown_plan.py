@@ -6,7 +6,7 @@ from math import hypot
 
 import pytest
 
-from relguide.contract.bodies import NamedSituationBody, situation_from_body
+from relguide.contract.bodies import NamedSituationBody, situation_from_body, situation_from_json
 from relguide.contract.refusal import parse
 from relguide.flying.flown_plan import flown_card
 from relguide.flying.plan_documents import FlownCard, NotFlownCard
@@ -132,6 +132,19 @@ def test_straight_behind_the_leader_its_route_is_captured_at_once() -> None:
 def test_a_flight_that_is_late_is_planned_by_what_is_found_by_then() -> None:
     card = flown_card(planned("head-on"), plan, until=end_of(0.0))
     assert card.reason
+
+
+def test_amid_others_it_is_what_is_flown() -> None:
+    situation = situation_from_json((ROOT / "examples/amid.json").read_bytes())[0]
+    made = plan(situation)
+    assert isinstance(made, Plan)
+    card = flown_card(made, plan)
+    assert isinstance(card, FlownCard)
+    flown = fly_whole(own_scenario(situation))
+    assert card.join == pytest.approx(flown.result.join_time, abs=2.0, rel=0.01)
+    alone = flown_card(replace(made, situation=replace(situation, others=())), plan)
+    assert isinstance(alone, FlownCard)
+    assert card.join > alone.join + 5.0
 
 
 def test_the_flight_keeps_clear_of_all_that_the_plan_keeps_clear_of() -> None:

@@ -51,7 +51,7 @@ def unaware(situation: Situation) -> Situation:
 def test_no_plan_is_below_both_minima_at_once_however_the_levels_are_flown():
     rng = np.random.default_rng(3)
     near = 0
-    for _ in range(150):
+    for _ in range(200):
         situation = situations(rng)
         answer = plan(situation)
         if isinstance(answer, NoPlan):
@@ -191,3 +191,23 @@ def test_no_plan_amid_traffic_is_below_both_minima_at_once():
                 assert kept.all()
     assert near > 500
     assert tight > 3
+
+
+@pytest.mark.parametrize("feet", [8_000.0, -4_000.0])
+def test_beside_the_slot_at_another_level_the_plan_is_later_and_joins_at_the_level(feet: float):
+    situation = Situation(
+        pursuer=Pursuer(
+            x=4e3, y=-16e3, heading=0.2, tas=230.0, max_bank=25.0 * DEG,
+            altitude=350 * FL + feet * FT,
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=210.0, altitude=350 * FL),
+        slot_distance=7.5 * NM,
+        min_separation=5.0 * NM,
+    )  # fmt: skip
+    alone, answer = plan(unaware(situation)), plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.certificate.holds
+    assert answer.arrival.holds
+    assert answer.time_to_converge > alone.time_to_converge
+    assert is_at_level(answer.situation, answer.time_to_converge)
+    assert not is_at_level(answer.situation, answer.time_to_converge - 3.0)

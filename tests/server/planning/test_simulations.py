@@ -42,6 +42,23 @@ def test_flights_are_flown_to_their_end_as_by_the_command(client: TestClient) ->
         SimulationAnswer.model_validate(one)
 
 
+@pytest.mark.slow
+def test_a_flight_of_several_pursuers_has_the_figures_of_each(client: TestClient) -> None:
+    ((flown,), (alone,)) = (
+        client.post(PATH, json=[{"scenario": name}]).json()
+        for name in ("overtaking_queue", "fig_6b")
+    )
+    answer = SimulationAnswer.model_validate(flown)
+    assert [(one.pursuer, one.leader, one.joined) for one in answer.links] == [
+        ("PURSUER", "THIRD", True),
+        ("FIRST", "LEADER", True),
+        ("SECOND", "FIRST", True),
+        ("THIRD", "SECOND", True),
+    ]
+    assert answer.join_time_s == answer.links[0].join_time_s
+    assert "links" not in alone
+
+
 @pytest.mark.parametrize(
     ("body", "path"),
     [
