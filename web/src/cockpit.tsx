@@ -109,11 +109,11 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
                   session={session}
                   actions={actions}
                 />
+                {narrow.value && <About session={session} />}
               </div>
               <div class="column numbers">
                 {!small.value && <Engage session={session} actions={actions} />}
                 <PlanNumbers session={session} />
-                {narrow.value && <About session={session} />}
                 {narrow.value && <Others session={session} />}
               </div>
               {!narrow.value && (

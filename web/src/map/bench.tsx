@@ -25,10 +25,10 @@ export function MapBench({ session, actions }: { session: Session; actions: Acti
         <div class="column numbers">
           <Remedies map={map} />
           <PlanNumbers session={map.reading} {...twoTimes(map.reading.answered.value)} />
-          <OthersForm map={map} />
         </div>
         <div class="column lists">
           <TakeAlong session={session} actions={actions} />
+          <OthersForm map={map} />
           <Alternatives session={map.reading} />
         </div>
       </div>

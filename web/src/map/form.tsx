@@ -259,7 +259,13 @@ export function IntentFields(props: {
   return (
     <fieldset class="fields intent">
       <legend class={name === "Leader" ? "key-leader" : ""}>{name} declares</legend>
-      {intent.length === 0 && <p class="hint">Nothing: its intent is not known.</p>}
+      {intent.length === 0 && (
+        <p class="hint">
+          {name === "Leader"
+            ? "Nothing: its intent is not known."
+            : "Nothing: it flies straight on."}
+        </p>
+      )}
       <ol>
         {intent.map((piece, i) => (
           <li key={i}>

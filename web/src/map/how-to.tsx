@@ -11,6 +11,7 @@ const WAYS: readonly (readonly [string, string])[] = [
     "Keys",
     "Tab takes hold of each of these; arrow keys move it, with Shift a little; Ctrl-Z takes it back",
   ],
+  ["Others", "Add aircraft or a cell; drag it, its heading or its edge; Delete removes it"],
   ["Map", "drag its ground, turn the wheel, or use two fingers; F brings all into sight"],
   [
     "Lines",

@@ -159,7 +159,8 @@ export function nearestLabels(map: Editor, view: View): Label[] {
   return marksOf(map).flatMap(({ ident, least, at, own, other, isConflict }, k) => {
     const point = project(layout, pose, own ?? other);
     if (!onMap(layout, point)) return [];
-    const near = `${formatMiles(least)} NM ${formatClock(at)}`;
+    const apart = least < 0 ? `${formatMiles(-least)} NM INSIDE` : `${formatMiles(least)} NM`;
+    const near = `${apart} ${formatClock(at)}`;
     const colour = isConflict ? ("caution" as const) : ("label" as const);
     return [
       {

@@ -178,6 +178,7 @@ function useLabels({ shown, view }: LayerProps, more: ReadonlySignal<More>): Pla
     return computed(() => {
       void view.beat.value;
       void forecast.value;
+      void shown.chosen.value;
       // Sides are chosen at the pace of reading; between, each label moves with its point.
       const all = [...labels.peek().values()];
       before = untracked(() => choose({ shown, view }, all, before, more.peek().points));

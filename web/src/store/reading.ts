@@ -64,9 +64,11 @@ export function proofSentence(optimality: OptimalityCard, time: number): string 
 export function alternativeSentence(alternative: Alternative, plan: PlanCard): string {
   switch (alternative.rejected) {
     case "separation": {
-      const least = milesBelow(alternative.least_separation_m);
-      const whose = alternative.ident === undefined ? "" : ` to ${alternative.ident}`;
-      return `only ${least} NM${whose} at ${formatClock(alternative.at_s)}`;
+      const { least_separation_m, at_s, ident } = alternative;
+      if (least_separation_m < 0 && ident !== undefined)
+        return `${formatMiles(-least_separation_m)} NM inside ${ident} at ${formatClock(at_s)}`;
+      const least = milesBelow(least_separation_m);
+      return `only ${least} NM${ident === undefined ? "" : ` to ${ident}`} at ${formatClock(at_s)}`;
     }
     case "slower":
       return formatDelay(alternative.time_to_converge_s - plan.time_to_converge_s);

@@ -266,5 +266,8 @@ test("a rejected path names whom it comes too close to", () => {
   expect(alternativeSentence({ ...rejected, ident: "BAW12" }, planCard())).toBe(
     "only 4.2 NM to BAW12 at 03:28",
   );
+  expect(
+    alternativeSentence({ ...rejected, ident: "CB1", least_separation_m: -3704 }, planCard()),
+  ).toBe("2.0 NM inside CB1 at 03:28");
   expect(alternativeSentence(rejected, planCard())).toBe("only 4.2 NM at 03:28");
 });
