@@ -136,7 +136,9 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
 def _bounds_amid_others(plan: Plan, seconds: Second) -> Iterator[Bound]:
     """The same where others are in the way, by the bounds of a plan for the leader alone."""
     best, least = plan, plan.optimality.lower_bound
+    began = now()
     alone = exact_plan(replace(plan.situation, others=()), deadline=seconds)
+    seconds = max(seconds - (now() - began), 0.0)
     if not isinstance(alone, Plan):
         yield Bound(elapsed=0.0, lower_bound=least, gap=best.time_to_converge - least, plan=best)
         return

@@ -233,9 +233,9 @@ LIMITED = (
 opens.
 """
 STEPS = {
-    "flying": Step("flights and plans without the limit", 104, _compile_flying),
+    "flying": Step("flights and plans without the limit", 112, _compile_flying),
     "limited": Step("the limited search", 227, _compile_limited, after=("flying",)),
-    "amid": Step("plans amid others", 42, _compile_amid, after=("limited",)),
+    "amid": Step("plans amid others", 47, _compile_amid, after=("limited",)),
     "areas": Step("areas", 19, _compile_areas, after=("flying",), packages=("contourpy",)),
     "proofs": Step("proofs of optimality", 222, _compile_proofs, after=("limited",)),
     "bulk": Step("plans in bulk", 5, _compile_bulk, after=("limited",), packages=("contourpy",)),
