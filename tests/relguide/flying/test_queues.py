@@ -109,7 +109,6 @@ def errors(
     places = np.array(
         [[(one.x, one.y) for one in d.aircraft] for d in documents if isinstance(d, Sample)]
     )
-    tracks = [_lengths(places[:, k]) for k in range(places.shape[1])]
     worst = []
     for ahead, own in pairwise(range(places.shape[1])):
         # where on the head's path, which all fly, each of the two is
@@ -122,7 +121,6 @@ def errors(
             worst.append(float(np.max(np.abs(along[0] - along[1] - D)[200:])))
     apart = np.hypot(*(places[:, :-1] - places[:, 1:]).transpose(2, 0, 1))
     assert np.min(apart) >= LIMIT
-    assert len(tracks) == places.shape[1]
     return np.array(worst)
 
 
@@ -149,9 +147,9 @@ def _along(head: np.ndarray, own: np.ndarray) -> np.ndarray:
 
 
 MANOEUVRES: dict[str, tuple[tuple[float, Command], ...]] = {
-    "step": ((300.0, LeaderSpeed(tas=200.0)),),
-    "ramp": tuple((300.0 + 10.0 * k, LeaderSpeed(tas=220.0 - 2.0 * k)) for k in range(1, 11)),
-    "turn": ((300.0, LeaderHeading(heading=150.0 * DEG)),),
+    "step": ((220.0, LeaderSpeed(tas=200.0)),),
+    "ramp": tuple((220.0 + 10.0 * k, LeaderSpeed(tas=220.0 - 2.0 * k)) for k in range(1, 11)),
+    "turn": ((220.0, LeaderHeading(heading=150.0 * DEG)),),
 }
 
 
@@ -162,7 +160,9 @@ def test_the_error_of_the_tenth_is_no_larger_than_that_of_the_first(
     manoeuvre: str, spacing: float
 ) -> None:
     world = World(aircraft=stream(10, spacing=spacing), links=links_of(10, spacing))
-    worst = errors(MANOEUVRES[manoeuvre], world, spacing, 1_500.0)
+    # until the tenth has done as the head did, and for two minutes more
+    reached = 600.0 if spacing > 0.0 or manoeuvre == "turn" else 100.0
+    worst = errors(MANOEUVRES[manoeuvre], world, spacing, 220.0 + reached + 120.0)
     # a metre: places are found on chords of a second
     assert worst[9] <= worst[0] + 1.0
     assert np.max(worst) <= worst[0] + 1.0

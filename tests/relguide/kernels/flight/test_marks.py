@@ -20,6 +20,7 @@ from relguide.kernels.flight.marks import (
     index_at,
     mark_at,
     sharpest_bend,
+    speed_when,
     straight_for,
 )
 from relguide.units import DEG
@@ -142,3 +143,13 @@ def test_all_columns_are_told_apart() -> None:
     assert sorted((S, X, Y, HEADING, TRACK, SPEED, T)) == list(range(7))
     step = TURNED[100] - TURNED[99]
     assert hypot(step[X], step[Y]) == pytest.approx(step[S])
+
+
+def test_the_speed_at_a_time_is_that_of_the_marks_beside_it() -> None:
+    marks = TURNED.copy()
+    marks[:, SPEED] = 200.0 - 0.5 * marks[:, T]
+    times = marks[2:-2, T]
+    for t in (float(times[0]), float(times[len(times) // 2]) + 0.25):
+        assert speed_when(marks, t) == pytest.approx(200.0 - 0.5 * t)
+    assert speed_when(marks, float(marks[-1, T]) + 50.0) == pytest.approx(float(marks[-1, SPEED]))
+    assert speed_when(marks, float(marks[0, T]) - 50.0) == pytest.approx(float(marks[0, SPEED]))
