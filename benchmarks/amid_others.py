@@ -44,6 +44,7 @@ from relguide import (
     plan,
 )
 from relguide.kernels.base.angles import wrap_signed
+from relguide.planning.amid import load_kernels
 from relguide.planning.progress import show_progress
 from relguide.planning.trajectory import LEFT, RIGHT, Segment, Trajectory
 from relguide.units import DEG, KT, NM, Second
@@ -318,7 +319,7 @@ def next_heading(onward: Plan | NoPlan, own: Pursuer) -> float:
 def measure(cases: int) -> tuple[dict[tuple[int, str], list[Flown]], list[str]]:
     """All situations by all methods; sentences about what could not be measured."""
     rows: dict[tuple[int, str], list[Flown]] = {}
-    plan(amid_traffic(np.random.default_rng(0), 3))  # compiles
+    load_kernels()
     drawn = {
         count: [amid_traffic(np.random.default_rng([count, k]), count) for k in range(cases)]
         for count in COUNTS

@@ -28,7 +28,8 @@ from relguide.flying.surveillance import Surveillance
 from relguide.flying.world import Declared, World
 from relguide.planning.aircraft import Traffic
 from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, Metre, Second
 

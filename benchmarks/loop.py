@@ -27,7 +27,7 @@ from relguide.flying.guidance.settings import Settings
 from relguide.learn.network_planner import network_planner
 from relguide.learn.words.branch_network import SHIPPED, load_network
 from relguide.learn.words.visited import STEP, draw_flight
-from relguide.planning.plan import NoPlan
+from relguide.planning.outcome import NoPlan
 from relguide.planning.progress import progress_bar
 
 SEED = 1903

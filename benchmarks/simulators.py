@@ -23,7 +23,8 @@ from relguide.flying.documents import Document
 from relguide.flying.flight import fly
 from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.scenarios import scenario
-from relguide.planning.plan import NoPlan, Plan, plan
+from relguide.planning.outcome import NoPlan, Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 
 PEERS = {"bluesky": "bluesky-simulator==1.1.1", "minisky": "minisky==0.0.2"}

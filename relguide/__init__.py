@@ -100,11 +100,11 @@ if typing.TYPE_CHECKING:
     from relguide.planning.intent import TurnTo as TurnTo
     from relguide.planning.optimality import OptimalityReport as OptimalityReport
     from relguide.planning.optimality import check as check
-    from relguide.planning.plan import NoPlan as NoPlan
-    from relguide.planning.plan import Optimality as Optimality
-    from relguide.planning.plan import Plan as Plan
-    from relguide.planning.plan import Planner as Planner
-    from relguide.planning.plan import Reason as Reason
+    from relguide.planning.outcome import NoPlan as NoPlan
+    from relguide.planning.outcome import Optimality as Optimality
+    from relguide.planning.outcome import Plan as Plan
+    from relguide.planning.outcome import Planner as Planner
+    from relguide.planning.outcome import Reason as Reason
     from relguide.planning.plan import plan as plan
     from relguide.planning.progress import progress_bar as progress_bar
     from relguide.planning.prove import prove as prove
@@ -199,11 +199,11 @@ _HOMES = {
     "certify": "relguide.planning.certificate",
     "OptimalityReport": "relguide.planning.optimality",
     "check": "relguide.planning.optimality",
-    "NoPlan": "relguide.planning.plan",
-    "Optimality": "relguide.planning.plan",
-    "Plan": "relguide.planning.plan",
-    "Planner": "relguide.planning.plan",
-    "Reason": "relguide.planning.plan",
+    "NoPlan": "relguide.planning.outcome",
+    "Optimality": "relguide.planning.outcome",
+    "Plan": "relguide.planning.outcome",
+    "Planner": "relguide.planning.outcome",
+    "Reason": "relguide.planning.outcome",
     "plan": "relguide.planning.plan",
     "progress_bar": "relguide.planning.progress",
     "prove": "relguide.planning.prove",

@@ -13,7 +13,8 @@ from relguide.flying.documents import Document, FlightEnded, Sample
 from relguide.flying.flight import Command, Scenario, fly
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.intent import FlyStraight, TurnTo
-from relguide.planning.plan import Planner, plan
+from relguide.planning.outcome import Planner
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.planning.wind import wind_from

@@ -7,7 +7,7 @@ from relguide.flying.aircraft_documents import AircraftCard, LinkCard
 from relguide.flying.cards import path_point, path_segments, plan_card, wind_card
 from relguide.flying.documents import FlightStarted, LeaderRoute, PlanChanged
 from relguide.planning.alternatives import alternatives
-from relguide.planning.plan import Plan
+from relguide.planning.outcome import Plan
 from relguide.units import Second
 
 

@@ -11,7 +11,7 @@ from relguide.kernels.bounds.words.tangent_contacts import tangent_contacts
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.planning.contact_search import Question
-from relguide.planning.plan import Plan
+from relguide.planning.outcome import Plan
 from relguide.planning.prove import question_of
 from relguide.planning.words import candidates
 

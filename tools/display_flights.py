@@ -13,7 +13,8 @@ from relguide.contract.wire import to_wire
 from relguide.flying.documents import Document
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.planning.wind import CALM, Wind, wind_from

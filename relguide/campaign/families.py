@@ -23,7 +23,8 @@ from relguide.flying.flight import LeaderHeading, Scenario
 from relguide.kernels.base.angles import wrap
 from relguide.planning.aircraft import Leader
 from relguide.planning.intent import FlyStraight, TurnTo
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT, Arc
 from relguide.planning.wind import CALM, wind_from

@@ -47,7 +47,8 @@ def run(chosen: argparse.Namespace) -> int:
     from relguide.contract.triplets import regular_from_json
     from relguide.contract.wire import to_wire
     from relguide.flying.regular_card import regular_check
-    from relguide.planning.plan import NoPlan, plan
+    from relguide.planning.outcome import NoPlan
+    from relguide.planning.plan import plan
     from relguide.planning.regular import regular_from_trajectory, trajectory_from_regular
 
     situation, _, _ = read_situation(chosen.situation)

@@ -21,7 +21,7 @@ from relguide.planning.extras import need
 
 if TYPE_CHECKING:
     from relguide.contract.answers import Include
-    from relguide.planning.plan import Planner
+    from relguide.planning.outcome import Planner
 
 PURPOSE = "plan a situation, or a file of them"
 EXAMPLES = """
@@ -148,7 +148,7 @@ class AskedBeside(NamedTuple):
 def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool) -> int:
     from relguide.contract.answers import answer, check_optimality, fly_plan
     from relguide.flying.cards import no_plan_card, plan_card
-    from relguide.planning.plan import NoPlan, Plan
+    from relguide.planning.outcome import NoPlan, Plan
 
     situation, anchor, body = read_situation(file)
     if asked.deadline is None:

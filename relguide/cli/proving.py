@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from relguide.planning.plan import NoPlan, Plan, Planner
+    from relguide.planning.outcome import NoPlan, Plan, Planner
     from relguide.planning.prove import Bound
     from relguide.planning.situation import Situation
 
@@ -36,7 +36,7 @@ def prove_after(planner: "Planner", longest: float, *, shown: bool = True) -> "P
         return planner
     from relguide.planning.acceptance import with_deadline
     from relguide.planning.deadline import end_of, left_until
-    from relguide.planning.plan import NoPlan
+    from relguide.planning.outcome import NoPlan
     from relguide.planning.progress import show_progress
     from relguide.planning.prove import prove
 

@@ -12,7 +12,8 @@ from relguide.flying.cards import no_plan_card, optimality_check, other_path_car
 from relguide.planning.acceptance import ask
 from relguide.planning.deadline import end_of, left_until
 from relguide.planning.frames import LocalPlane
-from relguide.planning.plan import NoPlan, Plan, Planner, plan
+from relguide.planning.outcome import NoPlan, Plan, Planner
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.units import Second
 

@@ -12,7 +12,7 @@ from relguide.contract.columns import Row, columns_of, row_of, take
 from relguide.contract.refusal import ContractError, loads, make_printable, parse
 from relguide.planning.acceptance import ask
 from relguide.planning.batch import VERDICTS, Times, plan_arrays
-from relguide.planning.plan import AS_FAST, NoPlan, Plan, Planner, Proof, Reason
+from relguide.planning.outcome import AS_FAST, NoPlan, Plan, Planner, Proof, Reason
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.turning_batch import TurningTimes, turning_times
 from relguide.units import Second

@@ -32,7 +32,7 @@ from relguide.flying.documents import (
 )
 from relguide.flying.plan_documents import Direction
 from relguide.flying.verdicts import ComparedPlanner, Verdict
-from relguide.planning.plan import Proof, Reason
+from relguide.planning.outcome import Proof, Reason
 
 _ALIASES: dict[str, tuple[Any, str]] = {
     "Direction": (Direction, "Which way round."),

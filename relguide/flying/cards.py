@@ -18,7 +18,6 @@ from relguide.flying.plan_documents import (
     ConflictCard,
     Direction,
     EarlyAlternativeCard,
-    LaterRemedy,
     LevelChangeCard,
     LevelRemedy,
     MissingAlternativeCard,
@@ -31,7 +30,6 @@ from relguide.flying.plan_documents import (
     PlanCard,
     RemedyCard,
     Separation,
-    SideRemedy,
     SlotDistanceRemedy,
     StraightSegment,
     TurnSegment,
@@ -43,7 +41,7 @@ from relguide.kernels.base.turn import bank_for_turn_radius
 from relguide.planning.arrival import Arrival
 from relguide.planning.certificate import Certificate
 from relguide.planning.heights import KeptByHeight
-from relguide.planning.plan import Conflict, NoPlan, Plan, Remedy
+from relguide.planning.outcome import Conflict, NoPlan, Plan, Remedy
 from relguide.planning.trajectory import (
     LEFT,
     Arc,
@@ -221,12 +219,8 @@ def _remedy_card(remedy: Remedy) -> RemedyCard:
             return SlotDistanceRemedy(
                 slot_distance=remedy.value, time_to_converge=time, message=message
             )
-        case "later":
-            return LaterRemedy(later=remedy.value, time_to_converge=time, message=message)
         case "level":
             return LevelRemedy(altitude=remedy.value, time_to_converge=time, message=message)
-        case "side":
-            return SideRemedy(time_to_converge=time, message=message)
         case _:
             assert_never(remedy.kind)
 

@@ -7,7 +7,7 @@ from relguide.flying.documents import FanChanged
 from relguide.flying.guidance.fan import is_uncertain, open_fan
 from relguide.flying.logbook import fan_document
 from relguide.flying.pursuit import Pursuit
-from relguide.planning.plan import Planner
+from relguide.planning.outcome import Planner
 from relguide.units import Second
 
 FAN_EVERY: Second = 5.0

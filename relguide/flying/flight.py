@@ -46,7 +46,8 @@ from relguide.planning.inputs import (
 )
 from relguide.planning.intent import IntentPiece, TurnTo
 from relguide.planning.limits import ALTITUDE, SPACING
-from relguide.planning.plan import Plan, Planner, plan
+from relguide.planning.outcome import Plan, Planner
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.wind import CALM
 from relguide.units import DEG, Kilogram, Metre, MetrePerSecond, Radian, Second

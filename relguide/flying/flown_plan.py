@@ -23,8 +23,8 @@ from relguide.flying.sky import Sky
 from relguide.kernels.base.angles import wrap
 from relguide.planning.acceptance import with_deadline
 from relguide.planning.deadline import left_until
+from relguide.planning.outcome import NoPlan, Plan, Planner
 from relguide.planning.phrases import distance, duration
-from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.situation import Situation
 from relguide.units import KT, Second
 

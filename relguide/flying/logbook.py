@@ -65,7 +65,7 @@ from relguide.planning.aircraft import Leader
 from relguide.planning.alternatives import alternatives
 from relguide.planning.cells import Cell, Disc, Polygon
 from relguide.planning.heights import VERTICAL_MINIMUM, WHOLE_METRE
-from relguide.planning.plan import Plan
+from relguide.planning.outcome import Plan
 from relguide.planning.wind import Wind
 from relguide.units import Metre, Second
 

@@ -8,7 +8,8 @@ from relguide.flying.world import Declared, Guided, Link, Recorded, World
 from relguide.kernels.base.angles import wrap
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.intent import IntentPiece
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.units import Second
 

@@ -6,7 +6,7 @@ Units, frames and times as in `documents`.
 from dataclasses import dataclass, field
 from typing import Literal
 
-from relguide.planning.plan import Proof, Reason
+from relguide.planning.outcome import Proof, Reason
 from relguide.units import Metre, MetrePerSecond, Millisecond, Radian, Second
 
 Direction = Literal["left", "right"]
@@ -375,20 +375,6 @@ class SlotDistanceRemedy:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LaterRemedy:
-    """Asked later there is a plan."""
-
-    later: Second
-    """How much later."""
-    time_to_converge: Second
-    """T of that plan, from then on."""
-    message: str
-    """The same in a sentence."""
-    kind: Literal["later"] = "later"
-    """Asked later."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class LevelRemedy:
     """At another level there is a plan."""
 
@@ -402,19 +388,7 @@ class LevelRemedy:
     """Another level."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SideRemedy:
-    """The other way round there is a plan."""
-
-    time_to_converge: Second
-    """T of that plan."""
-    message: str
-    """The same in a sentence."""
-    kind: Literal["side"] = "side"
-    """The other way round."""
-
-
-RemedyCard = SlotDistanceRemedy | LaterRemedy | LevelRemedy | SideRemedy
+RemedyCard = SlotDistanceRemedy | LevelRemedy
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

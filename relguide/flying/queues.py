@@ -18,7 +18,8 @@ from relguide.planning.aircraft import Leader, Pursuer, expect_distance
 from relguide.planning.inputs import expect, expect_function, text
 from relguide.planning.intent import IntentPiece
 from relguide.planning.limits import DISTANCE, SPACING
-from relguide.planning.plan import Plan, Planner, plan
+from relguide.planning.outcome import Plan, Planner
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.wind import CALM, Wind
 from relguide.units import Metre, Second

@@ -51,7 +51,8 @@ from relguide.flying.pursuit import Pursuit, begin_pursuit, fit_to_level, keep_m
 from relguide.flying.sky import Sky
 from relguide.flying.world import World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
-from relguide.planning.plan import Planner, plan
+from relguide.planning.outcome import Planner
+from relguide.planning.plan import plan
 from relguide.planning.wind import Wind
 from relguide.units import Metre, Second
 

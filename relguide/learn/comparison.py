@@ -34,8 +34,9 @@ from relguide.planning.candidate import Candidate, assemble
 from relguide.planning.certificate import certify, lost_to
 from relguide.planning.inputs import expect
 from relguide.planning.levels import is_at_level
+from relguide.planning.outcome import AS_FAST, NoPlan, Plan
 from relguide.planning.phrases import distance, duration, too_close, too_close_to
-from relguide.planning.plan import AS_FAST, NoPlan, Plan, plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
 from relguide.units import KT, Millisecond, Second

@@ -32,7 +32,8 @@ from relguide.planning.certificate import Certificate, judge
 from relguide.planning.deadline import LOADING, end_of, left_until
 from relguide.planning.inputs import expect
 from relguide.planning.levels import chooses_level
-from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner, plan
+from relguide.planning.outcome import AS_FAST, NoPlan, Optimality, Plan, Planner
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
 from relguide.planning.straight_ahead import first_candidate

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from relguide.planning.plan import Planner
+    from relguide.planning.outcome import Planner
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

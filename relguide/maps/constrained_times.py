@@ -15,7 +15,8 @@ import numpy as np
 from relguide.kernels.maps.field import DELAY
 from relguide.maps.contours import Evaluate, Field, Floats
 from relguide.planning.batch import Situations, plan_arrays
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 
 CONSTRAINED = DELAY + 1

@@ -24,8 +24,8 @@ from relguide.planning.arrival import (
 from relguide.planning.certificate import Certificate, certify, lost_to
 from relguide.planning.deadline import end_of, left_until
 from relguide.planning.levels import is_at_level
+from relguide.planning.outcome import NoPlan, Plan, Planner
 from relguide.planning.phrases import distance, duration, too_close, too_close_to
-from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory

@@ -18,9 +18,9 @@ from relguide.planning.candidate import Candidate
 from relguide.planning.certificate import certify, lost_to
 from relguide.planning.deadline import end_of
 from relguide.planning.inputs import expect
+from relguide.planning.outcome import AS_FAST, Plan
 from relguide.planning.passing import Passing, Surroundings, passing, surroundings
 from relguide.planning.phrases import duration, too_close, too_close_to
-from relguide.planning.plan import AS_FAST, Plan
 from relguide.planning.slot import SlotFrame
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import HORIZON, Candidates, candidates

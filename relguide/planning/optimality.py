@@ -18,7 +18,7 @@ from relguide.planning.adjoint import AdjointHistory, adjoint_history
 from relguide.planning.costates import Costates, dot, find_costates, multiplier
 from relguide.planning.inputs import expect, expect_within
 from relguide.planning.legs import ROUNDING, CostateLeg, Cut, cut, is_partial, join_legs
-from relguide.planning.plan import Plan
+from relguide.planning.outcome import Plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
 from relguide.planning.trajectory import Trajectory

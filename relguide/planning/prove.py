@@ -19,7 +19,7 @@ from relguide.planning.certificate import certify
 from relguide.planning.constrained_path import candidate_of_legs
 from relguide.planning.contact_search import Question
 from relguide.planning.inputs import expect, expect_function, expect_within
-from relguide.planning.plan import Optimality, Plan, Proof
+from relguide.planning.outcome import Optimality, Plan, Proof
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.tables import scene_of
 from relguide.planning.words import Candidates, candidates

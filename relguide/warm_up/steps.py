@@ -62,7 +62,8 @@ def _compile_limited() -> None:
     from relguide.flying.scenarios import scenario
     from relguide.planning.alternatives import alternatives
     from relguide.planning.deadline import load_kernels
-    from relguide.planning.plan import Plan, plan
+    from relguide.planning.outcome import Plan
+    from relguide.planning.plan import plan
 
     load_kernels()
     for situation in LIMITED:
@@ -96,7 +97,8 @@ def _compile_areas() -> None:
 
 def _compile_proofs() -> None:
     from relguide.planning.optimality import check
-    from relguide.planning.plan import Plan, plan
+    from relguide.planning.outcome import Plan
+    from relguide.planning.plan import plan
     from relguide.planning.prove import prove
     from relguide.planning.regular import regular_from_trajectory
     from relguide.planning.regular_evaluation import evaluate

@@ -19,7 +19,8 @@ from pydantic import BaseModel, Field
 from starlette.requests import HTTPConnection
 
 from relguide.planning.acceptance import with_deadline
-from relguide.planning.plan import NoPlan, Plan, Planner, plan_at_once
+from relguide.planning.outcome import NoPlan, Plan, Planner
+from relguide.planning.plan import plan_at_once
 from relguide.planning.situation import Situation
 from relguide.units import Second
 from relguide.warm_up import (

@@ -21,7 +21,8 @@ from relguide.flying.documents import (
 from relguide.flying.plan_documents import PathPoint
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.intent import FlyStraight, TurnTo
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import RIGHT, Trajectory
 from relguide.planning.wind import Wind, wind_from

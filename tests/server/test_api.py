@@ -14,7 +14,8 @@ from relguide_server.jobs.worker_pool import KINDS
 from relguide_server.planning.plans import EXAMPLE, MAX_BATCH
 from relguide_server.settings import ServiceSettings
 
-from relguide.planning.plan import NoPlan, Plan, plan
+from relguide.planning.outcome import NoPlan, Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from tests.server.flown import LEADER, OWN, ideal_flight
 from tests.server.serving import TestClient, ideal_app, ideal_catalogue

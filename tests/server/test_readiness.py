@@ -16,7 +16,8 @@ from relguide_server.settings import ServiceSettings
 
 from benchmarks.deadline import draw
 from relguide.contract.bodies import situation_from_json
-from relguide.planning.plan import NoPlan, Plan, Reason, plan, plan_at_once
+from relguide.planning.outcome import NoPlan, Plan, Reason
+from relguide.planning.plan import plan, plan_at_once
 from relguide.warm_up import STEPS, Preparing, WarmUpError
 from tests.bodies import AMID
 from tests.server.serving import TestClient

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-ee92f8967ea1";
+export const PROTOCOL = "relguide-e24a37f03f9b";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -723,18 +723,6 @@ export interface IntentKnownCommand {
   ident?: string;
 }
 
-/** Asked later there is a plan. */
-export interface LaterRemedy {
-  /** Asked later. */
-  kind: "later";
-  /** How much later. */
-  later_s: number;
-  /** T of that plan, from then on. */
-  time_to_converge_s: number;
-  /** The same in a sentence. */
-  message: string;
-}
-
 /** The leader does something new, or its intent was received or withdrawn. */
 export interface LeaderChanged {
   kind: "leader_changed";
@@ -980,7 +968,7 @@ export interface NoPlanCard {
   /** With the reason `traffic`: who is in the way, when, and how near. Else left out. */
   conflict?: ConflictCard;
   /** With the reason `traffic`: what would help, each of it tried. Left out if there is none. */
-  remedies?: (SlotDistanceRemedy | LaterRemedy | LevelRemedy | SideRemedy)[];
+  remedies?: (SlotDistanceRemedy | LevelRemedy)[];
 }
 
 /** A plan that no aircraft flies, and why. */
@@ -1339,16 +1327,6 @@ export interface SetEngagementCommand {
 export interface SetRateCommand {
   command: "set_rate";
   rate: number;
-}
-
-/** The other way round there is a plan. */
-export interface SideRemedy {
-  /** The other way round. */
-  kind: "side";
-  /** T of that plan. */
-  time_to_converge_s: number;
-  /** The same in a sentence. */
-  message: string;
 }
 
 /** Everything a plan depends on, at one instant. */

@@ -66,8 +66,8 @@ from relguide.kernels.flight import marks as at
 from relguide.kernels.flight import path as on
 from relguide.kernels.flight.guide import Act, Progress, act
 from relguide.kernels.flight.marks import mark_at
+from relguide.planning.outcome import Planner
 from relguide.planning.phrases import distance
-from relguide.planning.plan import Planner
 from relguide.planning.slot import slot_frame
 from relguide.units import Metre, Second
 

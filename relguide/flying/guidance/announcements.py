@@ -9,8 +9,8 @@ from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.modes import Mode
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.acceptance import Refusal
+from relguide.planning.outcome import NoPlan, Plan
 from relguide.planning.phrases import compass
-from relguide.planning.plan import NoPlan, Plan
 from relguide.units import KT, NM, Metre, MetrePerSecond, Radian, Second
 
 PlanReason = Literal[

@@ -9,7 +9,7 @@ from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.baselines import fly_trail, navigate, pursue_slot
 from relguide.flying.guidance.memory import Advice, Memory
 from relguide.flying.guidances import Guidance
-from relguide.planning.plan import Planner
+from relguide.planning.outcome import Planner
 
 Guide = Callable[[Memory, Belief, Assignment], tuple[Memory, Advice]]
 """One act of guidance, once a second."""

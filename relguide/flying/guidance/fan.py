@@ -24,7 +24,7 @@ from relguide.kernels.base.angles import wrap
 from relguide.kernels.flight.flight_records import Body
 from relguide.kernels.flight.program import STRAIGHT, TURN
 from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
-from relguide.planning.plan import Planner
+from relguide.planning.outcome import Planner
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, Metre, Radian, Second
 

@@ -20,7 +20,7 @@ from relguide.flying.modes import NUMBERS, Mode, change
 from relguide.kernels.flight.flight_records import Control
 from relguide.kernels.flight.guide import HOLD, Progress
 from relguide.planning.acceptance import Fault
-from relguide.planning.plan import Reason
+from relguide.planning.outcome import Reason
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.wind import Wind
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second

@@ -24,7 +24,7 @@ from relguide.flying.guidance.memory import Announced, Memory, Promise, enter
 from relguide.flying.guidance.settings import Settings
 from relguide.flying.modes import NUMBERS
 from relguide.kernels.flight.guide import Progress
-from relguide.planning.plan import NoPlan, Plan, Reason
+from relguide.planning.outcome import NoPlan, Plan, Reason
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Second
 

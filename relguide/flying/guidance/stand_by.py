@@ -22,8 +22,8 @@ from relguide.flying.guidance.plan_news import (
 )
 from relguide.flying.modes import NUMBERS
 from relguide.kernels.flight.guide import Progress
+from relguide.planning.outcome import Planner
 from relguide.planning.phrases import compass
-from relguide.planning.plan import Planner
 from relguide.units import MetrePerSecond, Radian, Second
 
 ENGAGES_WITHIN: Second = 30.0

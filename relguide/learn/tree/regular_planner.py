@@ -35,7 +35,8 @@ from relguide.planning.candidate import SIGN_ROWS, Candidate, assemble
 from relguide.planning.certificate import Certificate, certify
 from relguide.planning.inputs import expect
 from relguide.planning.levels import chooses_level
-from relguide.planning.plan import NoPlan, Optimality, Plan, plan
+from relguide.planning.outcome import NoPlan, Optimality, Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
 from relguide.planning.words import HORIZON

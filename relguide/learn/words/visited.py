@@ -20,7 +20,8 @@ from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
-from relguide.planning.plan import NoPlan, Plan, Planner, plan
+from relguide.planning.outcome import NoPlan, Plan, Planner
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
 from relguide.planning.trajectory import LEFT, RIGHT

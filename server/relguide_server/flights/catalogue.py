@@ -14,7 +14,7 @@ from relguide.contract.messages import FlightRequest, ScenarioInfo, ScenarioList
 from relguide.contract.places import UNANCHORED, Anchor
 from relguide.flying.flight import Scenario, fly
 from relguide.flying.scenarios import SCENARIOS, scenario
-from relguide.planning.plan import Planner
+from relguide.planning.outcome import Planner
 from relguide.planning.situation import Situation
 from relguide_server.flights.flight_requests import scenario_of, with_intent
 from relguide_server.flights.live_flight import Source

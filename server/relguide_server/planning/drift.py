@@ -11,7 +11,7 @@ from queue import Empty, Full, Queue
 from threading import Event, Lock, Thread
 
 from relguide.planning.acceptance import with_deadline
-from relguide.planning.plan import NoPlan, Plan, Planner
+from relguide.planning.outcome import NoPlan, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.situation import Situation
 from relguide.units import Second

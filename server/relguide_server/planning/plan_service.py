@@ -19,7 +19,7 @@ import orjson
 from relguide.contract.answers import Form, Include
 from relguide.contract.wire import to_wire
 from relguide.flying.verdicts import ComparedPlanner, PlannerVerdict
-from relguide.planning.plan import Planner
+from relguide.planning.outcome import Planner
 from relguide.units import Second
 from relguide_server.http.bodies import SMALL
 from relguide_server.http.errors import Refusal

@@ -12,7 +12,7 @@ from relguide.contract.answers import answer, read_include
 from relguide.contract.bodies import situation_from_json
 from relguide.contract.messages import PlanAnswer, plan_from_wire
 from relguide.flying.plan_documents import NoPlanCard
-from relguide.planning.plan import Plan
+from relguide.planning.outcome import Plan
 from relguide.units import DEG
 from tests.bodies import BODY, change, on_earth
 from tests.liars import LIARS, LIED_ABOUT, Liar

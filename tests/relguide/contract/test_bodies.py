@@ -19,7 +19,7 @@ from relguide.contract.places import Unanchored
 from relguide.contract.refusal import ContractError
 from relguide.flying.cards import plan_card
 from relguide.planning.frames import LocalPlane
-from relguide.planning.plan import Plan
+from relguide.planning.outcome import Plan
 from relguide.units import DEG
 from tests.bodies import BODY, change, on_earth
 

@@ -29,7 +29,8 @@ from relguide.flying.tracks import RecordedTrack
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.frames import LocalPlane
 from relguide.planning.intent import FlyStraight, TurnTo
-from relguide.planning.plan import NoPlan, Plan, Reason, plan
+from relguide.planning.outcome import NoPlan, Plan, Reason
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.planning.wind import wind_from

@@ -14,7 +14,8 @@ from relguide.flying.scenarios import own_scenario
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.cells import Cell, Disc
 from relguide.planning.deadline import end_of
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.units import DEG, Metre
 from tests.flights import Flown, fly_whole, random_start

@@ -9,7 +9,8 @@ from relguide.flying.flight import Scenario, world_of
 from relguide.flying.optimum import optimum
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.flying.world import Recorded, World
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from relguide.planning.wind import wind_from
 from relguide.units import DEG
 from tests.flights import fly_whole, random_start

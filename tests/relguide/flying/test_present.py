@@ -8,7 +8,8 @@ import pytest
 from relguide.flying.documents import FlightStarted, LeaderRoute, Sample
 from relguide.flying.present import OVER, situation_now
 from relguide.planning.intent import FlyStraight, TurnTo
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from relguide.units import DEG
 from tests.server.flown import SITUATION, ideal_flight
 

@@ -34,7 +34,8 @@ from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.world import Aircraft, Declared, Guided, Link, World
 from relguide.planning.aircraft import Leader, Pursuer
-from relguide.planning.plan import NoPlan, Plan, plan
+from relguide.planning.outcome import NoPlan, Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.units import DEG, NM
 from tests.flights import Flown, fly_whole, random_start, saying

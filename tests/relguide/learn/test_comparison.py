@@ -7,7 +7,8 @@ import pytest
 from relguide.flying.scenarios import fig_6
 from relguide.flying.verdicts import PlannerVerdict
 from relguide.learn.comparison import COMPARED, compare
-from relguide.planning.plan import NoPlan, Plan, plan
+from relguide.planning.outcome import NoPlan, Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.units import DEG, NM
 from tests.relguide.flying.guidance.beliefs import near_limit

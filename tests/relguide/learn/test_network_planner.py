@@ -30,7 +30,7 @@ from relguide.learn.boundary.template_network import load_template_network
 from relguide.learn.network_planner import network_planner, propose
 from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.planning.candidate import Candidate
-from relguide.planning.plan import AS_FAST
+from relguide.planning.outcome import AS_FAST
 from relguide.units import DEG
 from tests.relguide.learn.words.networks import network
 from tests.situations import coincidences, golden, situations

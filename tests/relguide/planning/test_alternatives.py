@@ -32,8 +32,8 @@ from relguide.planning.alternatives import (
     Slower,
     TooEarly,
 )
+from relguide.planning.outcome import AS_FAST
 from relguide.planning.passing import passing, surroundings
-from relguide.planning.plan import AS_FAST
 from relguide.planning.slot import slot_frame
 from relguide.units import DEG
 from tests.flights import random_start

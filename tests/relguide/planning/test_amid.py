@@ -21,7 +21,8 @@ from relguide import (
 from relguide.kernels.base.records import Pose
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve
 from relguide.planning.optimality import check
-from relguide.planning.plan import Reason, _remedies, plan_at_once
+from relguide.planning.outcome import Reason
+from relguide.planning.plan import _remedies, plan_at_once
 from relguide.planning.prove import prove
 from relguide.planning.slot import slot_frame
 from tests.skies import LIMIT, any_sky, blocked, crossing, margins, mirrored, moved

@@ -23,7 +23,7 @@ from relguide import (
     plan,
 )
 from relguide.planning.intent import IntentPiece
-from relguide.planning.plan import Optimality
+from relguide.planning.outcome import Optimality
 from relguide.units import DEG
 from tests.flights import random_start
 from tests.oracle import arrival_error

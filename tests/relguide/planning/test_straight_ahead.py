@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 
 from relguide import FlyStraight, Leader, Plan, Pursuer, Situation, candidates, certify, plan
-from relguide.planning.plan import AS_FAST
+from relguide.planning.outcome import AS_FAST
 from relguide.planning.straight_ahead import first_candidate
 from relguide.planning.words import HORIZON
 from relguide.units import DEG

@@ -16,7 +16,7 @@ from relguide_server.planning.plans import EXAMPLE
 from relguide_server.readiness import Preparation
 
 from relguide import NoPlan, Plan, Situation, plan
-from relguide.planning.plan import Reason
+from relguide.planning.outcome import Reason
 from relguide.units import Second
 
 BODY = json.dumps(EXAMPLE).encode()

@@ -25,7 +25,7 @@ from relguide.flying.documents import (
 )
 from relguide.flying.modes import Mode
 from relguide.flying.plan_documents import NoPlanCard, PathPoint
-from relguide.planning.plan import Reason
+from relguide.planning.outcome import Reason
 from tests.documents import rare_documents
 from tests.server.flown import LEADER, OWN, ideal_flight
 from tests.server.scene.test_camera import pictured

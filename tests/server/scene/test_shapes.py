@@ -8,7 +8,8 @@ from relguide_server.scene import shapes as shapes
 from viser.transforms import SO3
 
 from relguide.flying.cards import path_segments, plan_card
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from tests.server.flown import SITUATION
 
 

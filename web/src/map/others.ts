@@ -1,17 +1,10 @@
 /** Other aircraft and weather cells of a situation, as the map edits them. */
 
-import { pathPointAt, type Vector, velocity, windVector } from "../geometry";
+import { pathPointAt, windVector } from "../geometry";
 import type { Place } from "../nd/view";
-import type {
-  CellCard,
-  DiscCell,
-  IntentPiece,
-  LevelChange,
-  LocalTraffic,
-  PathPoint,
-} from "../wire";
+import type { CellCard, DiscCell, LocalTraffic } from "../wire";
 import { declaredRoute } from "./leader-route";
-import type { Declared, MapCell, MapTraffic, Situation } from "./situation";
+import type { MapCell, MapTraffic, Situation } from "./situation";
 
 /** How fast a new aircraft flies [m/s], and how large a new cell is [m]. */
 const NEW = { tas: 230, radius: 15_000 } as const;
@@ -95,72 +88,4 @@ export function otherAt(situation: Situation, ident: string, t: number): Place |
   const cell = situation.cells.find((each) => each.ident === ident);
   if (cell === undefined) return null;
   return { x_m: cell.x_m + cell.east_mps * t, y_m: cell.y_m + cell.north_mps * t };
-}
-
-/** The same situation `t` [s] later: own ship flies straight on, all others as they declare. */
-export function later(situation: Situation, t: number): Situation {
-  const wind = windVector(situation.wind);
-  const { pursuer, leader, traffic, cells } = situation;
-  const air = velocity(pursuer.tas_mps, pursuer.heading_deg);
-  return {
-    ...situation,
-    pursuer: {
-      ...pursuer,
-      x_m: pursuer.x_m + (air.x + wind.x) * t,
-      y_m: pursuer.y_m + (air.y + wind.y) * t,
-    },
-    leader: flownOn(leader, t, wind),
-    traffic: traffic.map((each) => flownOn(each, t, wind)),
-    cells: cells.map((cell) => ({
-      ...cell,
-      x_m: cell.x_m + cell.east_mps * t,
-      y_m: cell.y_m + cell.north_mps * t,
-      radius_m: cell.radius_m + cell.growth_mps * t,
-    })),
-  };
-}
-
-function flownOn<T extends Declared>(aircraft: T, t: number, wind: Vector): T {
-  const route = declaredRoute(aircraft, wind);
-  const now: PathPoint | null = pathPointAt(route, t, wind);
-  if (now === null) return aircraft;
-  const rest: IntentPiece[] = [];
-  let altitude = aircraft.altitude_m ?? null;
-  let change: LevelChange | null = null; // that is being flown
-  let since = 0;
-  let number = 0;
-  const climb = (until: number) => {
-    if (change === null || altitude === null) return;
-    const way = change.to_altitude_m - altitude;
-    const flown = Math.min(Math.abs(way), change.rate_mps * (until - since));
-    altitude += Math.sign(way) * flown;
-    if (flown === Math.abs(way)) change = null;
-    since = until;
-  };
-  for (const piece of aircraft.intent) {
-    const begins = route[number]?.start.t_s ?? 0;
-    if ("level_change" in piece) {
-      if (begins > t) rest.push(piece);
-      else {
-        climb(begins);
-        [change, since] = [piece.level_change, begins];
-      }
-      continue;
-    }
-    const ends = route[number]?.end.t_s ?? 0;
-    number += 1;
-    if (ends <= t) continue;
-    const left = Math.round(10 * (ends - Math.max(t, begins))) / 10;
-    rest.push("straight_s" in piece ? { straight_s: left } : piece);
-  }
-  climb(t);
-  const still = change as LevelChange | null;
-  return {
-    ...aircraft,
-    x_m: now.x_m,
-    y_m: now.y_m,
-    heading_deg: now.heading_deg,
-    intent: still === null ? rest : [{ level_change: still }, ...rest],
-    ...(altitude !== null && { altitude_m: altitude }),
-  };
 }

@@ -5,22 +5,17 @@ import { inPageUnits } from "../units";
 import type { NoPlanCard } from "../wire";
 import { edit } from "./editing";
 import type { Editor } from "./editor";
-import { later } from "./others";
 import type { Situation } from "./situation";
 
 export type Remedy = NonNullable<NoPlanCard["remedies"]>[number];
 
-/** The situation with a remedy applied; null for one that only the crew can choose: the other side. */
-export function applyRemedy(remedy: Remedy): ((situation: Situation) => Situation) | null {
+/** The situation with a remedy applied. */
+export function applyRemedy(remedy: Remedy): (situation: Situation) => Situation {
   switch (remedy.kind) {
     case "slot_distance":
       return (now) => ({ ...now, slot_distance_m: remedy.slot_distance_m });
     case "level":
       return (now) => ({ ...now, pursuer: { ...now.pursuer, altitude_m: remedy.altitude_m } });
-    case "later":
-      return (now) => later(now, remedy.later_s);
-    case "side":
-      return null;
   }
 }
 
@@ -35,13 +30,9 @@ export function Remedies({ map }: { map: Editor }) {
           const text = inPageUnits(remedy.message);
           return (
             <li key={remedy.kind}>
-              {change === null ? (
-                <span>{text}</span>
-              ) : (
-                <button type="button" onClick={() => edit(map, change)}>
-                  {text}
-                </button>
-              )}
+              <button type="button" onClick={() => edit(map, change)}>
+                {text}
+              </button>
             </li>
           );
         })}

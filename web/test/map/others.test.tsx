@@ -8,11 +8,11 @@ import { handlesOf } from "../../src/map/handles";
 import { readAddress, writeAddress } from "../../src/map/link";
 import { mapView, PlanMap } from "../../src/map/map";
 import { dragOther, keyOther, otherPart, removeOther, sayOther } from "../../src/map/other-handles";
-import { addCell, addTraffic, later, otherAt } from "../../src/map/others";
+import { addCell, addTraffic, otherAt } from "../../src/map/others";
 import { OthersForm } from "../../src/map/others-form";
 import { nearestLabels } from "../../src/map/others-layer";
 import { pythonOf } from "../../src/map/python";
-import { applyRemedy, Remedies, type Remedy } from "../../src/map/remedies";
+import { Remedies } from "../../src/map/remedies";
 import { bodyOf, type Situation, settle } from "../../src/map/situation";
 import { alternativeSentence } from "../../src/store/reading";
 import { NM } from "../../src/units";
@@ -189,12 +189,11 @@ const STUCK: NoPlanCard = {
       message: "D of 7.6 NM: joins in 600 s.",
     },
     {
-      kind: "later",
-      later_s: 60,
+      kind: "level",
+      altitude_m: 9754,
       time_to_converge_s: 600,
-      message: "A minute later: joins in 600 s.",
+      message: "At 32,000 ft until it joins there is a plan of 600 s.",
     },
-    { kind: "side", time_to_converge_s: 700, message: "The other way round: joins in 700 s." },
   ],
 };
 
@@ -209,31 +208,10 @@ test("no plan marks who is in the way where that is then, and a button applies w
   act(() => render(<Remedies map={map} />, place));
   const buttons = [...place.querySelectorAll("button")];
   expect(buttons.map(({ textContent }) => textContent)).toHaveLength(2);
-  expect(place.textContent).toContain("The other way round");
   act(() => buttons[0]?.click());
   expect(map.situation.value.slot_distance_m).toBe(14_000);
-});
-
-test("later, all are where they fly until then, and declare what is left", () => {
-  const minute = later(AMID, 60);
-  expect(minute.pursuer.x_m).toBeCloseTo(FIRST.pursuer.x_m + 60 * FIRST.pursuer.tas_mps, 6);
-  expect(minute.cells[0]).toMatchObject({ x_m: 600, radius_m: 9120 });
-  const [other] = minute.traffic;
-  expect(other?.y_m).toBeCloseTo(45_000 - 60 * 230, 6);
-  expect(other?.altitude_m).toBeCloseTo(9144 - 60 * 6, 6);
-  expect(other?.intent).toEqual([
-    { level_change: { to_altitude_m: 8534, rate_mps: 6, hold: "cas" } },
-    { straight_s: 40 },
-    AMID.traffic[0]?.intent[2],
-  ]);
-  const level = later(AMID, 130).traffic[0];
-  expect(level?.altitude_m).toBe(8534);
-  expect(level?.intent).toHaveLength(1); // within its turn
-  for (const t of [10, 90, 150]) {
-    const [at, then] = [otherAt(AMID, "BAW 12", t), later(AMID, t).traffic[0]];
-    expect(then?.x_m).toBeCloseTo(at?.x_m ?? 0, 6);
-  }
-  expect(applyRemedy(STUCK.remedies?.[1] as Remedy)?.(AMID)).toEqual(minute);
+  act(() => buttons[1]?.click());
+  expect(map.situation.value.pursuer.altitude_m).toBe(9754);
 });
 
 test("the form adds, names and removes", () => {

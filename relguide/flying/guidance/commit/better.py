@@ -15,7 +15,7 @@ from relguide.flying.guidance.commit.proposal import NotBetter, Proposal
 from relguide.flying.guidance.commit.shown_plan import shown_plan
 from relguide.flying.guidance.situations import situation_of
 from relguide.planning.acceptance import ask
-from relguide.planning.plan import NoPlan, Planner
+from relguide.planning.outcome import NoPlan, Planner
 from relguide.units import Second
 
 

@@ -11,7 +11,7 @@ from relguide.flying.guidance.forecast import Forecast
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.flight import path as on
 from relguide.kernels.flight.guide import Course
-from relguide.planning.plan import Plan
+from relguide.planning.outcome import Plan
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Metre, Second
 

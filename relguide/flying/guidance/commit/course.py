@@ -9,7 +9,7 @@ from relguide.flying.guidance.commit.lead_in import LeadIn
 from relguide.flying.guidance.forecast import forecast
 from relguide.kernels.flight import path as on
 from relguide.kernels.flight.guide import CONVERGE, Course, Progress
-from relguide.planning.plan import Plan
+from relguide.planning.outcome import Plan
 from relguide.units import Metre
 
 

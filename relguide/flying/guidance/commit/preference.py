@@ -11,7 +11,7 @@ from relguide.flying.belief import Belief
 from relguide.flying.guidance.commit.path_distance import distance_between, is_same_path
 from relguide.kernels.base.angles import wrap
 from relguide.planning.certificate import certify
-from relguide.planning.plan import AS_FAST, Optimality, Plan
+from relguide.planning.outcome import AS_FAST, Optimality, Plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import candidates

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from relguide.flying.guidance.commit.committed import Committed
 from relguide.planning.acceptance import Refusal
-from relguide.planning.plan import NoPlan, Plan
+from relguide.planning.outcome import NoPlan, Plan
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

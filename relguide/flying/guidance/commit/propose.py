@@ -14,8 +14,8 @@ from relguide.flying.guidance.commit.proposal import NoProposal, Proposal
 from relguide.flying.guidance.commit.shown_plan import shown_plan
 from relguide.flying.guidance.situations import situation_now, situation_of
 from relguide.planning.acceptance import FlyableAnswer, ask
+from relguide.planning.outcome import Conflict, NoPlan, Planner, Reason
 from relguide.planning.phrases import distance
-from relguide.planning.plan import Conflict, NoPlan, Planner, Reason
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Metre, Second

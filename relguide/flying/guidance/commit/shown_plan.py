@@ -10,7 +10,7 @@ from relguide.flying.guidance.commit.segments import join_segments, segments_of
 from relguide.flying.guidance.situations import situation_now
 from relguide.kernels.base.angles import wrap
 from relguide.planning.certificate import certify
-from relguide.planning.plan import Plan
+from relguide.planning.outcome import Plan
 
 
 def shown_plan(plan: Plan, lead: LeadIn, belief: Belief, assignment: Assignment) -> Plan:

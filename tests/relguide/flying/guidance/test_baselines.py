@@ -17,7 +17,7 @@ from relguide.flying.flight import Command, LeaderData, LeaderHeading, Scenario,
 from relguide.flying.guidances import GUIDANCES, Guidance
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.planning.aircraft import Leader, Pursuer
-from relguide.planning.plan import NoPlan, Plan
+from relguide.planning.outcome import NoPlan, Plan
 from relguide.planning.situation import Situation
 from relguide.planning.wind import wind_from
 from relguide.units import DEG, NM

@@ -15,7 +15,8 @@ from relguide.flying.scenarios import own_scenario
 from relguide.kernels.flight.ahead import AT, LEAST, NEVER, RIGHT
 from relguide.kernels.flight.flight_records import TURN_RATE, Control
 from relguide.kernels.flight.guide import HOLD, Progress
-from relguide.planning.plan import NoPlan, plan
+from relguide.planning.outcome import NoPlan
+from relguide.planning.plan import plan
 from relguide.units import DEG
 from tests.flights import fly_whole, random_start
 from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, behind, observe

@@ -22,7 +22,8 @@ from relguide.flying.orders import Command, IntentKnown
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.aircraft import Leader, Pursuer
-from relguide.planning.plan import NoPlan, Reason, plan
+from relguide.planning.outcome import NoPlan, Reason
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.units import DEG, KT, NM
 from tests.flights import Flown, fly_whole, random_start

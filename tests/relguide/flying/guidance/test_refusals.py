@@ -8,7 +8,8 @@ from relguide.flying.documents import PlanChanged, PlanRefused
 from relguide.flying.flight import Scenario
 from relguide.flying.scenarios import own_scenario
 from relguide.planning.acceptance import Fault
-from relguide.planning.plan import NoPlan, Optimality, Plan, plan
+from relguide.planning.outcome import NoPlan, Optimality, Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from tests.flights import Flown, fly_whole
 from tests.liars import LIARS, LIED_ABOUT, Liar, comes_too_early, ends_beside

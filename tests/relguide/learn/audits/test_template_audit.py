@@ -30,7 +30,8 @@ from relguide.learn.boundary.template_labels import (
 from relguide.learn.boundary.train_templates import WITHIN, targets_of
 from relguide.learn.training.shares import Share
 from relguide.learn.words.branch_network import load_network
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from tests.relguide.learn.boundary.template_networks import ways
 from tests.relguide.learn.boundary.test_template_labels import Here
 

@@ -5,7 +5,8 @@ from dataclasses import replace
 from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.guidance.commit.proposal import Proposal
 from relguide.flying.guidance.commit.propose import propose
-from relguide.planning.plan import Planner, plan
+from relguide.planning.outcome import Planner
+from relguide.planning.plan import plan
 from relguide.planning.wind import wind_from
 from relguide.units import DEG
 from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, observe

@@ -10,7 +10,8 @@ from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.guidance.commit.proposal import NotBetter, Proposal
 from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.settings import DEFAULT
-from relguide.planning.plan import NoPlan, Optimality, Plan, plan
+from relguide.planning.outcome import NoPlan, Optimality, Plan
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.words import candidates
 from tests.liars import ends_beside

@@ -17,7 +17,8 @@ from relguide.kernels.flight.ahead import MODE
 from relguide.kernels.flight.guide import CONVERGE
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.intent import FlyStraight, TurnTo
-from relguide.planning.plan import NoPlan, Plan, Reason, plan
+from relguide.planning.outcome import NoPlan, Plan, Reason
+from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.planning.wind import Wind

@@ -11,7 +11,8 @@ from relguide.kernels.bounds.search.cell_facts import bury, is_buried, learn, le
 from relguide.kernels.bounds.search.cell_tree import Problem, Tree, cell_at, halve, plant, size_of
 from relguide.kernels.bounds.words.cells import Cell
 from relguide.planning.contact_search import Question
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from tests.planned_contacts import flown, problem_of
 
 

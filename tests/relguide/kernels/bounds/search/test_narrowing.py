@@ -14,7 +14,8 @@ from relguide.kernels.bounds.search.cell_facts import reach
 from relguide.kernels.bounds.search.cell_tree import Problem, Tree, cell_at, halve, size_of
 from relguide.kernels.bounds.search.narrowing import ask_lasts, lasts_of
 from relguide.kernels.bounds.search.nodes import Search
-from relguide.planning.plan import Plan, plan
+from relguide.planning.outcome import Plan
+from relguide.planning.plan import plan
 from tests.planned_contacts import Flown, flown, problem_of
 
 STEP, TOUCH, NEAR = 2e-3, 5e-6, 5e-3
