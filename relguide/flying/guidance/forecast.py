@@ -29,7 +29,7 @@ STRAIGHT_FOR = 30
 FOLLOWED: Second = 150.0
 """How long a forecast goes on once it has joined [s]."""
 SOUGHT: Second = 3_600.0
-"""It is at its leader's level by then at the latest, if what is declared does not lead there [s]."""
+"""By then it is at its leader's level, if what is declared does not lead there sooner [s]."""
 NO_COURSE = Course(
     lay_path(0.0, 0.0, 0.0, np.zeros((0, 2)), 1.0, 0.0, 1.0), 0.0, 0.0, 0.0, Drift(0.0, 0.0), NEVER
 )
