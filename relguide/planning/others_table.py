@@ -31,6 +31,8 @@ class _Shape(NamedTuple):
     growth: float
     corners: FloatArray
     reach: float
+
+
 _AT_LEVEL = 1e-3
 """It joins so long after its leader's level is reached, and before it is left [s]."""
 
