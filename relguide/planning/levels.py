@@ -52,7 +52,8 @@ def levels_with(leader: Heights, own: Metre | None) -> tuple[LevelChange, ...]:
         own: the pursuer's level now [m].
     """
     altitude = leader.altitude
-    if altitude is None or own is None or (leader.changes and leader.changes[0].at == 0.0):
+    begins_now = bool(leader.changes) and leader.changes[0].at == 0.0
+    if altitude is None or own is None or own == altitude or begins_now:
         return leader.changes
     return (_change(0.0, own, altitude), *leader.changes)
 

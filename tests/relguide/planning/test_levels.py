@@ -52,7 +52,7 @@ def unaware(situation: Situation) -> Situation:
 def test_no_plan_is_below_both_minima_at_once_however_the_levels_are_flown():
     rng = np.random.default_rng(3)
     near = 0
-    for _ in range(200):
+    for _ in range(250):
         situation = situations(rng)
         answer = plan(situation)
         if isinstance(answer, NoPlan):
@@ -243,3 +243,18 @@ def test_a_pursuer_with_changes_of_its_own_joins_at_the_level_of_its_leader_or_n
         assert answer.reason == "level"
         assert "never" in answer.message
     assert at_once is None or at_once == answer
+
+
+def test_a_pursuer_at_its_leaders_level_changes_it_only_as_the_leader_does():
+    descends = (FlyStraight(duration=100.0), ChangeLevel(to_altitude=310 * FL, rate=7.0))
+    situation = Situation(
+        pursuer=Pursuer(
+            x=-40e3, y=40e3, heading=1.5, tas=240.0, max_bank=25.0 * DEG, altitude=350 * FL
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=1.5, tas=200.0, altitude=350 * FL, intent=descends),
+        slot_distance=7.5 * NM,
+        min_separation=5.0 * NM,
+    )
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.levels == (LevelChange(at=100.0, to_altitude=310 * FL, rate=7.0),)
