@@ -34,8 +34,6 @@ ALTIMETRY: Metre = 200.0 * FT
 
 JOINED_HEIGHT: Metre = 300.0 * FT
 """A pursuer so near the level of its leader has joined it [m]."""
-SOUGHT = 3_600
-"""Seconds in which a level is reached."""
 FASTEST: MetrePerSecond = 6_000.0 * FT / 60.0
 """No two aircraft come nearer in height than this [m/s]."""
 
@@ -90,6 +88,17 @@ class Heights:
             step = change.rate * max(min(t, end) - change.at, 0.0)
             altitude += copysign(min(abs(way), step), way)
         return altitude
+
+    def bends(self) -> tuple[Second, ...]:
+        """When its rate of climb changes, in order of time [s]."""
+        found: list[Second] = []
+        ends = [change.at for change in self.changes[1:]] + [inf]
+        for change, end in zip(self.changes, ends, strict=False):
+            here = self.at(change.at)
+            assert here is not None
+            reached = change.at + abs(change.to_altitude - here) / change.rate
+            found += [change.at, min(reached, end)]
+        return tuple(found)
 
     def settled(self) -> Second:
         """When the last change is over for certain [s]; infinite where no level is known."""
@@ -150,16 +159,48 @@ def counted(own: Heights, other: Heights) -> tuple[Interval, ...]:
     return tuple((since, until) for since, until, certain, _ in _spans(own, other) if not certain)
 
 
-def time_to_level(own: Heights, leader: Heights) -> Second:
-    """How long it takes a pursuer to come to its leader's level by what both are to do [s].
+def off_level(own: Heights, leader: Heights) -> tuple[Interval, ...]:
+    """When a pursuer is not at its leader's level, by what both are to do.
 
-    To a whole second; 0 where a level is not known, `SOUGHT` where it takes longer.
+    Args:
+        own: of the pursuer.
+        leader: of its leader.
+
+    Returns:
+        Intervals in order of time; none where a level is not known.
     """
-    for seconds in range(SOUGHT):
-        here, there = own.at(float(seconds)), leader.at(float(seconds))
-        if here is None or there is None or abs(here - there) <= JOINED_HEIGHT:
-            return float(seconds)
-    return float(SOUGHT)
+    if own.altitude is None or leader.altitude is None:
+        return ()
+    times = sorted({0.0, *own.bends(), *leader.bends()})
+    gaps = [_between(own, leader, t) for t in times]
+    found: list[Interval] = []
+    for (t, gap), (end, then) in pairwise(zip([*times, inf], [*gaps, gaps[-1]], strict=True)):
+        cuts = [t]
+        for side in (-JOINED_HEIGHT, JOINED_HEIGHT):
+            if (gap - side) * (then - side) < 0.0:
+                cuts.append(t + (gap - side) / (gap - then) * (end - t))
+        for low, high in pairwise([*sorted(cuts), end]):
+            if abs(_between(own, leader, min(0.5 * (low + high), low + 1.0))) <= JOINED_HEIGHT:
+                continue
+            begun = found.pop()[0] if found and found[-1][1] == low else low
+            found.append((begun, high))
+    return tuple(found)
+
+
+def time_to_level(own: Heights, leader: Heights, since: Second = 0.0) -> Second:
+    """When a pursuer is first at its leader's level from `since` [s] on; infinite if never [s]."""
+    for begin, end in off_level(own, leader):
+        if begin <= since < end:
+            return end
+    return since
+
+
+def _between(own: Heights, leader: Heights, t: Second) -> Metre:
+    """How far a pursuer is above its leader at a time, where both levels are known [m]."""
+    here, there = own.at(t), leader.at(t)
+    assert here is not None
+    assert there is not None
+    return here - there
 
 
 def kept_by_height(own: Heights, other: Heights, until: Second) -> tuple[KeptByHeight, ...]:

@@ -11,7 +11,7 @@ from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.aircraft import Traffic
 from relguide.planning.cells import Cell
 from relguide.planning.certificate import AROUND_CELLS, FOLLOWED, cell_shape
-from relguide.planning.heights import Heights, counted, heights_of, time_to_level
+from relguide.planning.heights import Heights, counted, heights_of, off_level
 from relguide.planning.situation import Other, Situation
 from relguide.planning.slot import SlotFrame
 from relguide.planning.tables import leader_table, pieces_table
@@ -31,6 +31,10 @@ class _Shape(NamedTuple):
     growth: float
     corners: FloatArray
     reach: float
+
+
+_AT_LEVEL = 1e-3
+"""It joins so long after its leader's level is reached, and before it is left [s]."""
 
 
 def others_of(situation: Situation, frame: SlotFrame, *, until: float = inf) -> Others:
@@ -72,8 +76,8 @@ def others_of(situation: Situation, frame: SlotFrame, *, until: float = inf) -> 
     )
     forbidden = forbidden_arrivals(others, FOLLOWED / scale, HORIZON / scale)
     if situation.pursuer.levels:  # it joins at the leader's level
-        early = (-1.0, time_to_level(own, leading) / scale)
-        forbidden = np.concatenate((np.array([early]), forbidden))
+        off = [(begin - _AT_LEVEL, end + _AT_LEVEL) for begin, end in off_level(own, leading)]
+        forbidden = np.concatenate((np.array(off).reshape(-1, 2) / scale, forbidden))
     return others._replace(forbidden=forbidden)
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
+from math import inf
 from time import perf_counter_ns
 
 from relguide.kernels.base.clock import time_is_up
@@ -16,7 +17,7 @@ from relguide.planning.amid import (
 )
 from relguide.planning.certificate import OtherSeparation, certify
 from relguide.planning.deadline import TO_PUT_DOWN, end_of
-from relguide.planning.heights import heights_of
+from relguide.planning.heights import heights_of, time_to_level
 from relguide.planning.inputs import expect
 from relguide.planning.leader_alone import plan_alone, plan_alone_at_once, plan_of, relaxed
 from relguide.planning.levels import (
@@ -87,7 +88,10 @@ def _plan_at_any_level(situation: Situation, until: float) -> Plan | NoPlan:
     """`plan`, without looking for what would help."""
     if chooses_level(situation):
         return _plan_by_level(situation, until)
-    return _plan(situation, until)
+    answer = _plan(situation, until)
+    if isinstance(answer, Plan) and not _joins_at_level(answer):
+        return _later_at_level(answer, until)
+    return answer
 
 
 def _plan(situation: Situation, until: float) -> Plan | NoPlan:
@@ -106,7 +110,10 @@ def plan_at_once(situation: Situation) -> Plan | NoPlan | None:
     expect("situation", situation, Situation)
     if situation.others:
         return _at_once_amid_others(situation)
-    return None if chooses_level(situation) else plan_alone_at_once(situation)
+    if chooses_level(situation):
+        return None
+    answer = plan_alone_at_once(situation)
+    return None if isinstance(answer, Plan) and not _joins_at_level(answer) else answer
 
 
 def _plan_amid_others(situation: Situation, until: float) -> Plan | NoPlan:
@@ -262,10 +269,16 @@ def _later_at_level(early: Plan, until: float) -> Plan | NoPlan:
             certificate=certificate,
             optimality=replace(early.optimality, proof="bound"),
         )
-    settled, joins = heights_of(situation.pursuer).settled(), early.time_to_converge
+    joins = early.time_to_converge
+    level = time_to_level(heights_of(situation.pursuer), heights_of(situation.leader), joins)
+    why = (
+        f"the leader's level only in {level:.0f} s, and no path that takes so long was found: "
+        "change the level first."
+        if level < inf
+        else "the leader's level never: the pursuer's changes of level must end at that level."
+    )
     return NoPlan(
         reason=Reason.LEVEL,
-        message=f"The slot is reached in {joins:.0f} s, but the leader's level only in "
-        f"{settled:.0f} s, and no path that takes so long was found: change the level first.",
+        message=f"The slot is reached in {joins:.0f} s, but {why}",
         lower_bound=early.optimality.lower_bound,
     )

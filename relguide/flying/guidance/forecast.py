@@ -28,6 +28,8 @@ STRAIGHT_FOR = 30
 """… nor than this in time [s]."""
 FOLLOWED: Second = 150.0
 """How long a forecast goes on once it has joined [s]."""
+SOUGHT: Second = 3_600.0
+"""By then it is at its leader's level, if what is declared does not lead there sooner [s]."""
 NO_COURSE = Course(
     lay_path(0.0, 0.0, 0.0, np.zeros((0, 2)), 1.0, 0.0, 1.0), 0.0, 0.0, 0.0, Drift(0.0, 0.0), NEVER
 )
@@ -153,9 +155,9 @@ def forecast(
     if belief.counts != ALWAYS:
         _leave_out(account, belief)
     if join_time != NEVER and not belief.at_level:
-        join_time = max(
-            join_time, belief.t + time_to_level(belief.own_heights, belief.leader_heights)
-        )
+        since = max(join_time - belief.t, 0.0)
+        level = time_to_level(belief.own_heights, belief.leader_heights, since)
+        join_time = belief.t + min(level, max(since, SOUGHT))
     suffix = np.minimum.accumulate(account[::-1, LEAST])[::-1]
     return Forecast(belief.t, own, leader, account, suffix, join_time)
 

@@ -9,6 +9,7 @@ import pytest
 from relguide import ChangeLevel, FlyStraight, Leader, LevelChange, Pursuer, Traffic, TurnTo
 from relguide.planning.heights import (
     ALTIMETRY,
+    JOINED_HEIGHT,
     RATE_TOLERANCE,
     START_TOLERANCE,
     VERTICAL_MINIMUM,
@@ -17,6 +18,8 @@ from relguide.planning.heights import (
     counted,
     heights_of,
     kept_by_height,
+    off_level,
+    time_to_level,
 )
 from relguide.units import DEG, FT
 
@@ -153,3 +156,22 @@ def test_two_that_change_level_together_are_as_sure_as_both_their_tolerances():
     other = Heights(altitude=330 * FL, changes=(above,))
     ((since, until),) = counted(own, other)
     assert 50.0 < since < until <= max(own.settled(), other.settled())
+
+
+def test_off_level_is_when_two_are_more_than_300_ft_apart_by_what_they_declared():
+    rng, times = np.random.default_rng(55), np.arange(0.5, 1_200.0)
+    seen = 0
+    for _ in range(300):
+        own, leader = a_profile(rng), a_profile(rng)
+        found = off_level(own, leader)
+        apart = np.array([own.at(t) - leader.at(t) for t in times])
+        off = np.zeros(len(times), dtype=bool)
+        for since, until in found:
+            off |= (times > since) & (times < until)
+        assert (off == (abs(apart) > JOINED_HEIGHT)).all()
+        seen += len(found) > 1
+        first = time_to_level(own, leader)
+        assert (abs(apart[times < first]) > JOINED_HEIGHT).all()
+        assert first == inf or abs(own.at(first) - leader.at(first)) <= JOINED_HEIGHT + 1e-6
+    assert seen > 20
+    assert off_level(Heights(altitude=None), Heights(altitude=350 * FL)) == ()

@@ -20,6 +20,7 @@ from relguide import (
 )
 from relguide.planning.heights import VERTICAL_MINIMUM, WHOLE_METRE, counted, heights_of
 from relguide.planning.levels import is_at_level
+from relguide.planning.plan import plan_at_once
 from relguide.units import DEG, FT, NM
 from tests.relguide.planning.test_heights import flown
 
@@ -148,8 +149,12 @@ def test_traffic_at_another_level_does_not_count_and_is_told_with_its_height():
 
 
 def test_a_pursuer_keeps_the_levels_it_declares():
-    levels = (LevelChange(at=30.0, to_altitude=330 * FL, rate=5.0),)
     situation = situations(np.random.default_rng(1))
+    final = heights_of(situation.leader).final_altitude
+    levels = (
+        LevelChange(at=30.0, to_altitude=330 * FL, rate=5.0),
+        LevelChange(at=90.0, to_altitude=final, rate=15.0),
+    )
     declared = replace(situation, pursuer=replace(situation.pursuer, levels=levels))
     answer = plan(declared)
     assert isinstance(answer, Plan)
@@ -211,3 +216,30 @@ def test_beside_the_slot_at_another_level_the_plan_is_later_and_joins_at_the_lev
     assert answer.time_to_converge > alone.time_to_converge
     assert is_at_level(answer.situation, answer.time_to_converge)
     assert not is_at_level(answer.situation, answer.time_to_converge - 3.0)
+
+
+@pytest.mark.parametrize("at", [10.0, 800.0, 9_000.0])
+@pytest.mark.parametrize("to", [320 * FL, 300 * FL])
+def test_a_pursuer_with_changes_of_its_own_joins_at_the_level_of_its_leader_or_not_at_all(
+    at: float, to: float
+):
+    situation = Situation(
+        pursuer=Pursuer(
+            x=-40e3, y=40e3, heading=1.5, tas=240.0, max_bank=25.0 * DEG, altitude=350 * FL,
+            levels=(LevelChange(at=at, to_altitude=to, rate=10.0),),
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=1.5, tas=200.0, altitude=300 * FL),
+        slot_distance=7.5 * NM,
+        min_separation=5.0 * NM,
+    )  # fmt: skip
+    answer, at_once = plan(situation), plan_at_once(situation)
+    if to == 300 * FL:
+        assert isinstance(answer, Plan)
+        assert answer.certificate.holds
+        assert answer.arrival.holds
+        assert is_at_level(answer.situation, answer.time_to_converge)
+    else:
+        assert isinstance(answer, NoPlan)
+        assert answer.reason == "level"
+        assert "never" in answer.message
+    assert at_once is None or at_once == answer
