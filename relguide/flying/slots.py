@@ -81,7 +81,7 @@ def refuse_taken(claims: Sequence[Claim], speeds: Mapping[str, MetrePerSecond]) 
         speeds: true airspeeds of all aircraft by ident [m/s].
 
     Raises:
-        ValueError: who takes it already, and where there is room.
+        ValueError: it names the pursuer that is to take it, and says where there is room.
     """
     places = [_place(claim, claims, speeds) for claim in claims]
     for k, (claim, place) in enumerate(zip(claims, places, strict=True)):

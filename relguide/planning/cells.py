@@ -166,7 +166,9 @@ def _convex(corners: object) -> tuple[tuple[float, float], ...]:
         (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0) for (x1, y1), (x2, y2) in pairwise(points)
     )
     if abs(area) < 2.0 * LEAST_AREA:
-        raise ValueError("polygon.corners lie on one line: a cell must have an area.")
+        raise ValueError(
+            "polygon.corners must go round an area: these lie on one line, or cross themselves."
+        )
     if area < 0.0:
         points.reverse()
     turned = 0.0

@@ -40,7 +40,7 @@ from relguide.units import Metre, Second
 TOLERANCE = 1e-7
 """How far below the least separation found the proof may stop [R]: 1 mm for an airliner."""
 AROUND_CELLS: Metre = 0.1
-"""The same of cells, whose edges nobody knows to a metre [m]."""
+"""The same of cells, whose edges are not known to a metre [m]."""
 FOLLOWED: Second = 120.0
 """So long after joining the pursuer must keep clear of others, in the slot [s]."""
 

@@ -100,12 +100,6 @@ class Heights:
             found += [change.at, min(reached, end)]
         return tuple(found)
 
-    def settled(self) -> Second:
-        """When the last change is over for certain [s]; infinite where no level is known."""
-        if self.altitude is None:
-            return inf
-        return _knots(self)[-1].at
-
     def bounds(self, t: Second) -> tuple[Metre, Metre]:
         """Between which altitudes the aircraft is at a time, altimetry included [m]."""
         if self.altitude is None:

@@ -57,7 +57,7 @@ class Plan:
     certificate: Certificate
     optimality: Optimality
     planner: str
-    """Who made it: `exact`, `network`, `regular_dp`, or the name of a planner of one's own."""
+    """What made it: `exact`, `network`, `regular_dp`, or the name of a planner of one's own."""
     compute_time: Millisecond = field(default=0.0, compare=False)
     """Wall time it took to find [ms]."""
     fell_back: bool = field(default=False, compare=False)
@@ -137,7 +137,7 @@ class Plan:
 
     def _repr_svg_(self) -> str:
         """How notebooks show it: drawn, north up."""
-        from relguide.planning.drawing import plan_drawing  # most who plan draw nothing
+        from relguide.planning.drawing import plan_drawing  # most plans are never drawn
 
         return plan_drawing(
             self.trajectory, self.situation, word=self.word, certificate=self.certificate

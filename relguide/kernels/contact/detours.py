@@ -24,8 +24,6 @@ from relguide.kernels.contact.others import (
 )
 from relguide.kernels.words.extremals import MAX_ROWS, fly_piece
 
-MAX_PAIRS = 4
-"""Most pairs of turn and straight before the last word."""
 _SMALLEST = 2e-4  # last step of a descent [rad, R]: a hundredth of a second
 _GROWTH, _SHRINK = 2.0, 0.5  # of a step that leads down, and where none does
 _DIRECTIONS = 7  # tried from one place, for each number that is moved

@@ -158,7 +158,7 @@ WRONG: list[tuple[str, Any, str, str]] = [
         "cells.1.polygon",
         [[0, 0], [1e4, 0], [2e4, 0]],
         "cells[1].polygon",
-        "lie on one line: a cell must have an area.",
+        "must go round an area: these lie on one line, or cross themselves.",
     ),
     (
         "cells.1.polygon",

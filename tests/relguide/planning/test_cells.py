@@ -28,7 +28,8 @@ def test_a_polygon_is_kept_counter_clockwise_and_open() -> None:
     ("corners", "why"),
     [
         (SQUARE[:2], "must have 3 to 64 different corners, not 2"),
-        (((0.0, 0.0), (1e3, 0.0), (2e3, 0.0)), "lie on one line: a cell must have an area"),
+        (((0.0, 0.0), (1e3, 0.0), (2e3, 0.0)), "must go round an area: these lie on one line"),
+        (((0.0, 0.0), (1e3, 1e3), (1e3, 0.0), (0.0, 1e3)), "or cross themselves"),
         (((0.0, 0.0), (4e3, 0.0), (1e3, 1e3), (0.0, 4e3)), "at \\(1000, 1000\\) m they turn back"),
         (
             ((0.0, 3.0), (-1.8, -2.4), (2.9, 0.9), (-2.9, 0.9), (1.8, -2.4)),
