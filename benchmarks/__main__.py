@@ -7,6 +7,7 @@ from dataclasses import fields
 from rich.console import Console
 
 from benchmarks import (
+    amid_others,
     detours,
     files,
     inference,
@@ -29,6 +30,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     add_counts(parser)
     simulators.add_runs(parser)
+    amid_others.add_cases(parser, 5)
     given = parser.parse_args(arguments)
     results = measure(counts_from(given))
     console = Console(width=118)
@@ -40,6 +42,7 @@ def main(arguments: list[str] | None = None) -> int:
     console.print(inference.table(results.rates))
     console.print(files.table(results.file_runs))
     console.print(simulators.table(simulators.measure(given.runs)))
+    console.print(amid_others.table(*amid_others.measure(given.amid)))
     for contest in results.beaten:
         console.print(_show_beaten(contest), soft_wrap=True, highlight=False)
     failures = _failures(results)

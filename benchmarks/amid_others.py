@@ -1,6 +1,6 @@
 """Plans amid traffic beside what peers do: plan(), BlueSky's MVP, and a search over fixes.
 
-    python -m benchmarks.amid_others --cases 40
+    python -m benchmarks.amid_others --amid 20
 
 - MVP [Hoekstra02] keeps one aircraft clear, second by second: BlueSky flies it as it comes, in a
   closed loop with the plan to the slot that knows of no others, asked anew each second.
@@ -382,16 +382,20 @@ def table(rows: dict[tuple[int, str], list[Flown]], absent: list[str]) -> Table:
     return drawn
 
 
+def add_cases(parser: argparse.ArgumentParser, default: int) -> None:
+    """An option for how many situations are drawn."""
+    told = f"situations for each count of others ({default})"
+    parser.add_argument("--amid", type=positive, default=default, metavar="N", help=told)
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Measure and print."""
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.amid_others", description=__doc__.splitlines()[0]
     )
-    parser.add_argument(
-        "--cases", type=positive, default=40, metavar="N", help="for each count (40)"
-    )
+    add_cases(parser, 20)
     given = parser.parse_args(arguments)
-    Console(width=118).print(table(*measure(given.cases)))
+    Console(width=118).print(table(*measure(given.amid)))
     return 0
 
 

@@ -33,6 +33,21 @@ class SimulationLoss(Strict):
     """Whose doing it was."""
     announced_s: float | None
     """When it was announced; null if it was not."""
+    other: str = ""
+    """Whom it came too close to; left out for the leader."""
+
+
+class SimulationNearest(Strict):
+    """How near the pursuer came to one other aircraft, or to the edge of a cell."""
+
+    ident: str
+    """Its name."""
+    separation_m: float
+    """The least; negative inside a cell."""
+    t_s: float
+    """When."""
+    min_separation_m: float
+    """What was to be kept; 0 for a cell."""
 
 
 class SimulationAlert(Strict):
@@ -101,6 +116,8 @@ class SimulationFigures(Strict):
     """Given to the pursuer's crew, and their ends."""
     unables: list[SimulationUnable]
     """What guidance could not do."""
+    least_other: SimulationNearest | None = None
+    """Of all others, the one with the least to spare; left out where there are none."""
 
 
 class SimulationLink(SimulationFigures):

@@ -43,7 +43,7 @@ NAMED = (
     ),
     Named(
         name="of paths equally fast the one that keeps farther off",
-        file="relguide/planning/plan.py",
+        file="relguide/planning/leader_alone.py",
         before="certificate.least_separation > best[1].least_separation + 1.0",
         after="certificate.least_separation > best[1].least_separation + 1e9",
     ),

@@ -3,7 +3,7 @@
 A path that others bend touches them. Up to the first contact, between contacts and from the last
 one on it is a word: to a contact with one of the others as to one with the leader, but in the frame
 of that one, and to the slot as ever. So contacts are tried from the start, then from each contact
-found, in the order of how soon the slot could be reached from there without anybody in the way: no
+found, in the order of how soon the slot could be reached from there with nothing in the way: no
 path by way of a contact is faster than that. The best chains are refined in their bearings.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.

@@ -4,10 +4,10 @@ from math import hypot
 
 import pytest
 
+import relguide
 from relguide.campaign import recordings
 from relguide.campaign.families import FAMILIES, draw
 from relguide.campaign.starts import REACH
-from relguide.planning import situation as situation_words
 
 DRAWN = [family for family in FAMILIES if family != "recorded"]
 
@@ -23,9 +23,10 @@ def test_a_flight_is_drawn_from_its_name_alone(family: str, number: int) -> None
     situation = case.scenario.situation
     away = hypot(situation.pursuer.x, situation.pursuer.y)
     assert situation.min_separation <= away <= REACH
+    words = {name: getattr(relguide, name) for name in relguide.__all__}
     # what is printed makes the same situation again
     (printed,) = (line for line in case.as_code().splitlines() if line.startswith("situation"))
-    assert eval(printed.removeprefix("situation = "), vars(situation_words)) == situation
+    assert eval(printed.removeprefix("situation = "), words) == situation
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""Orders by ident: who is named does so, and nobody else; who cannot is refused with a sentence."""
+"""Orders by ident: the aircraft named obeys and no other; an order it cannot obey is refused."""
 
 from collections.abc import Iterator
 from math import pi

@@ -59,7 +59,10 @@ def flown_with(command: Any) -> object:
         (lambda: Aircraft(**OWN | {"altitude": 31_000.0}), "altitude must lie in -500 … 20000 m"),
         (lambda: Aircraft(**OWN | {"max_bank": 25.0}), "max_bank must lie in 1 … 60 °"),
         (lambda: Aircraft(**OWN | {"pilot": "me"}), "must be a Guided or a Declared or a Recorded"),
-        (lambda: Declared(intent=(1,)), r"intent\[0\] must be a FlyStraight or a TurnTo"),  # type: ignore[arg-type]
+        (
+            lambda: Declared(intent=(1,)),
+            r"intent\[0\] must be a FlyStraight, a TurnTo or a ChangeLevel",
+        ),  # type: ignore[arg-type]
         (lambda: Link(**LINK | {"slot_distance": 5e3}), "must be at least min_separation"),
         (lambda: Link(**LINK | {"spacing": 900.0}), "spacing must lie in 0 … 600 s"),
         (lambda: World(**WORLD | {"aircraft": Aircraft(**OWN)}), "must be a tuple of Aircraft"),

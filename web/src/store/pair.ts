@@ -17,7 +17,7 @@ import type {
   Sample,
 } from "../wire";
 
-/** An aircraft beside the two, and the ident of whom it is to join; "" if that is nobody. */
+/** An aircraft beside the two, and the ident of the aircraft that it is to join; "" if there is none. */
 export interface OtherCard extends AircraftCard {
   readonly follows: string;
 }

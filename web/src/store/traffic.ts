@@ -27,7 +27,7 @@ export interface Traffic {
   readonly distance: number;
   readonly urgency: Urgency;
   readonly approach: Approach;
-  /** Whom it is to join; "" for nobody. */
+  /** Ident of the aircraft that it is to join; "" if there is none. */
   readonly follows: string;
 }
 
