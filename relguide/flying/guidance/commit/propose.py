@@ -121,7 +121,8 @@ def _propose_without_buffer(
     fell_back = wide.fell_back or answer.fell_back
     refusal = answer.refusal or wide.refusal
     if isinstance(answer.plan, NoPlan):
-        return NoProposal(answer=answer.plan, fell_back=fell_back, refusal=refusal)
+        no_plan = _lost_to_another(answer.plan, lead) or answer.plan
+        return NoProposal(answer=no_plan, fell_back=fell_back, refusal=refusal)
     found = commit(answer.plan, lead, belief, assignment)
     least, _ = found.forecast.least(belief.t)
     if least < limit:
@@ -135,10 +136,28 @@ def _propose_without_buffer(
     return Proposal(committed=found, shown=shown, fell_back=fell_back, refusal=refusal)
 
 
+def _lost_to_another(later: NoPlan, lead: LeadIn) -> NoPlan | None:
+    """That another is too close where the lead-in ends; `None` if none is."""
+    conflict = later.conflict
+    if later.reason != Reason.SEPARATION_ALREADY_LOST or conflict is None:
+        return None
+    least, limit = conflict.least_separation, conflict.min_separation
+    how = (
+        f"{distance(least)} from {conflict.ident}, closer than {distance(limit)}"
+        if limit > 0.0
+        else f"{distance(-least)} inside {conflict.ident}"
+    )
+    message = f"In {lead.seconds:.0f} s, before another path can begin, the pursuer is {how}."
+    return replace(later, message=message)
+
+
 def _refuse_lost(
     later: NoPlan, belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn
 ) -> NoPlan:
     """Why no plan can begin where the lead-in ends, in figures of now."""
+    to_another = _lost_to_another(later, lead)
+    if to_another is not None:
+        return to_another
     if belief.counted_separation < assignment.min_separation:
         now = ask(planner, situation_now(belief, assignment)).plan
         return now if isinstance(now, NoPlan) else later
