@@ -118,10 +118,9 @@ def test_a_loss_to_another_names_it_and_was_announced() -> None:
     assert lost.announced[0] < lost.t
     alerts = [d for d in flight.of(Alert) if d.other == "BAW12"]
     assert [d.level for d in alerts][:2] == ["caution", "warning"]
-    for unable in flight.of(Unable):
-        if unable.t < lost.t and unable.reason == "separation":
-            assert unable.message.startswith("Unable: In "), unable.message
-    assert any(unable.reason == "separation" for unable in flight.of(Unable))
+    (unable,) = (d for d in flight.of(Unable) if d.reason == "separation")
+    assert unable.message.startswith("Unable: In ")
+    assert "before another path can begin, the pursuer is 4." in unable.message
     assert any(d.reason == "traffic" for d in flight.of(Unable))
     assert to_wire(flight.end)["results"][0]["losses"][0]["other"] == "BAW12"
 
