@@ -3,9 +3,9 @@
     python benchmarks/mvp.py < questions > answers
 
 A script of its own, as BlueSky needs another version of numpy: `amid_others.py` runs it with
-BlueSky's Python. The first line on standard input says who flies; each second it prints where the
-pursuer is, and reads the heading that it flies unless it resolves a conflict. An empty line ends a
-flight. Flat earth: degrees of latitude and longitude at the equator.
+BlueSky's Python. The first line on standard input lists the aircraft. Each second it prints where
+the pursuer is, and reads the heading that it flies unless it resolves a conflict. An empty line
+ends a flight. Flat earth: degrees of latitude and longitude at the equator.
 """
 
 import json

@@ -402,7 +402,7 @@ class NoPlanCard:
     lower_bound: Second = 0.0
     """No plan that keeps d_min is faster than this [s]; 0 where nothing is known."""
     conflict: ConflictCard | None = field(default=None, metadata=LEFT_OUT)
-    """With the reason `traffic`: who is in the way, when, and how near. Else left out."""
+    """With the reason `traffic`: what is in the way, when, and how near. Else left out."""
     remedies: tuple[RemedyCard, ...] = field(default=(), metadata=LEFT_OUT)
     """With the reason `traffic`: what would help, each of it tried. Left out if there is none."""
     status: Literal["no_plan"] = "no_plan"

@@ -245,7 +245,7 @@ def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) ->
 
 
 def _pursuits_of(ident: str, pursuits: list[Pursuit]) -> list[Pursuit]:
-    """The pursuit of an aircraft; of the first link where none is named."""
+    """The pursuit of an aircraft; the first one if `ident` is empty."""
     return [one for one in pursuits if ident == one.names.pursuer] if ident else pursuits[:1]
 
 

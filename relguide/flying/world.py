@@ -182,7 +182,7 @@ class World:
     """Weather that pursuers keep out of, as it is at the start."""
 
     def __post_init__(self) -> None:
-        """Refuse links to who is not there, pursuers without guidance, and slots that are taken."""
+        """Refuse links to aircraft that do not fly, pursuers without guidance, and taken slots."""
         object.__setattr__(self, "aircraft", _all_of("aircraft", self.aircraft, Aircraft))
         object.__setattr__(self, "links", _all_of("links", self.links, Link))
         expect("air", self.air, Air)

@@ -965,7 +965,7 @@ export interface NoPlanCard {
   message: string;
   /** No plan that keeps d_min is faster than this [s]; 0 where nothing is known. */
   lower_bound_s: number;
-  /** With the reason `traffic`: who is in the way, when, and how near. Else left out. */
+  /** With the reason `traffic`: what is in the way, when, and how near. Else left out. */
   conflict?: ConflictCard;
   /** With the reason `traffic`: what would help, each of it tried. Left out if there is none. */
   remedies?: (SlotDistanceRemedy | LevelRemedy)[];

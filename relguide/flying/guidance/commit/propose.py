@@ -137,7 +137,7 @@ def _propose_without_buffer(
 
 
 def _lost_to_another(later: NoPlan, lead: LeadIn) -> NoPlan | None:
-    """That another is too close where the lead-in ends; `None` if none is."""
+    """The refusal if another is too close where the lead-in ends; else `None`."""
     conflict = later.conflict
     if later.reason != Reason.SEPARATION_ALREADY_LOST or conflict is None:
         return None
