@@ -1,9 +1,11 @@
 import { useComputed } from "@preact/signals";
 import { Cell } from "./cell";
 import { type LayerProps, usePart } from "./layer";
+import { trendSign } from "./leader";
 import { READOUTS } from "./view";
 
 const COLUMN = READOUTS.fma.width / 5;
+const LEVEL = { "": "ALT", "↑": "CLB", "↓": "DES" } as const;
 const ROW = { now: 23, next: 48 } as const;
 
 /** The mode strip: what is engaged (upper row, green) and what comes next (lower row, cyan). */
@@ -17,7 +19,8 @@ export function ModeStrip({ shown }: LayerProps) {
     commander.value.now === "" ? "" : `${commander.value.now} ${numbers.value.commandedSpeed}`,
   );
   const speedNext = useComputed(() => commander.value.next);
-  const level = useComputed(() => (modes.value === null ? "" : "ALT"));
+  const climb = usePart(shown, (picture) => trendSign(picture.climb));
+  const level = useComputed(() => (modes.value === null ? "" : LEVEL[climb.value]));
   const spacing = useComputed(() =>
     numbers.value.isSpacing ? `D ${numbers.value.slotDistance}` : "",
   );

@@ -117,6 +117,8 @@ export interface Picture {
   /** The other aircraft, the least urgent first; none while the map may not be shown. */
   readonly traffic: readonly Traffic[];
   readonly cells: readonly Cell[];
+  /** How fast own ship climbs [m/s]. */
+  readonly climb: number;
   /** How fast the leader climbs [m/s]. */
   readonly leaderClimb: number;
   /** What the leader is called. */
@@ -250,6 +252,7 @@ export function pictureOf(flight: Moment): Picture {
     started: flight.started,
     traffic: seen.map ? trafficOf(flight) : [],
     cells: seen.map ? cellsOf(flight) : [],
+    climb: flight.climbs.get(now?.pursuer.ident ?? "") ?? 0,
     leaderClimb: flight.climbs.get(flight.started?.leader.ident ?? "") ?? 0,
     ident: flight.started?.leader.ident ?? "LEADER",
     trend: now === null ? [] : trendOf(now),

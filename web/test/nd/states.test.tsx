@@ -244,3 +244,19 @@ test("the keep-out circle of a leader that is not heard of grows", () => {
   expect(radius(1)).toBe(least);
   expect(radius(20) - least).toBeCloseTo(0.5 * 9.81 * Math.tan(25 * (Math.PI / 180)) * 400, 6);
 });
+
+test.each([
+  [3, "CLB"],
+  [1, "ALT"],
+  [-8, "DES"],
+])("own ship that climbs by %s m/s is said to", (climb, said) => {
+  const flight = flightIn("converge");
+  amend(flight, { climbs: new Map([[flight.moment.value.now?.pursuer.ident ?? "", climb]]) });
+  const root = mountDisplay({
+    shown: createShown(flight),
+    mode: signal<"ROSE" | "ARC">("ARC"),
+    range: signal(40),
+  });
+  const cells = [...root.querySelectorAll(".nd-fma text")].map((each) => each.textContent ?? "");
+  expect(cells[1]).toBe(said);
+});
