@@ -10,7 +10,6 @@ from typing import Literal, assert_never
 
 from relguide.flying.air import Air
 from relguide.flying.airframe import Airframe, airframe, known_airframes
-from relguide.flying.dispersion import disperse
 from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.flying.envelope import envelope_fault
@@ -32,7 +31,7 @@ from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
 from relguide.flying.wind_profile import WindProfile
-from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
+from relguide.flying.world import Aircraft, Declared, Link, Recorded, World
 from relguide.planning.aircraft import Traffic
 from relguide.planning.cells import Cell
 from relguide.planning.inputs import (
@@ -268,8 +267,13 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
         settings: of guidance.
         seed: as in `fly`.
     """
-    situation, can = scenario.situation, airframe(scenario.pursuer_type)
-    pursuer, leader = situation.pursuer, situation.leader
+    situation, leader = scenario.situation, scenario.situation.leader
+    first = Follower(
+        ident=scenario.pursuer_ident,
+        pursuer=situation.pursuer,
+        aircraft_type=scenario.pursuer_type,
+        weight=scenario.pursuer_weight,
+    )
     banks = [piece.bank for piece in leader.intent if isinstance(piece, TurnTo)]
     match scenario.leader_source:
         case RecordedTrack() as track:
@@ -280,20 +284,7 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
             assert_never(scenario.leader_source)
     return World(
         aircraft=(
-            Aircraft(
-                ident=scenario.pursuer_ident,
-                airframe=disperse(can, seed),
-                believed=can,
-                aircraft_type=can.designator,
-                x=pursuer.x,
-                y=pursuer.y,
-                heading=pursuer.heading,
-                tas=pursuer.tas,
-                altitude=scenario.altitude if pursuer.altitude is None else pursuer.altitude,
-                weight=scenario.pursuer_weight,
-                max_bank=pursuer.max_bank,
-                pilot=Guided(),
-            ),
+            first.aircraft(scenario.altitude, seed),
             Aircraft(
                 ident=scenario.leader_ident,
                 airframe=_leader_airframe(scenario.leader_type),

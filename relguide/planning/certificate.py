@@ -5,7 +5,7 @@ aircraft and each cell has a bound of its own, until `FOLLOWED` seconds after th
 from then on it flies in the slot.
 
 Where both levels are known, a separation counts only in the times in which 1,000 ft are not certain
-(`heights`). Where it never counts, the least separation of all time is told, and holds.
+(`heights`). Where it never counts, the certificate has the least separation of all time, and holds.
 """
 
 from dataclasses import dataclass

@@ -229,7 +229,7 @@ def _gaps(
     """Pieces of time in which the certain height is linear, on one side of the minimum each.
 
     Yields:
-        from, to, the height that is certain at the start and at the end [m], negative if none is.
+        from, to, the height that is certain at the start and at the end [m], negative without any.
     """
     if until <= 0.0:
         return

@@ -165,20 +165,6 @@ def separation_flown(
     return least
 
 
-def separation_on_heading(
-    belief: Belief,
-    assignment: Assignment,
-    heading: Radian,
-    *,
-    turns_on: bool = False,
-    other_tas: MetrePerSecond | None = None,
-) -> Metre:
-    """The least separation if the pursuer turns the shorter way to a heading and keeps it [m]."""
-    return kept_on_heading(
-        belief, assignment, heading, turns_on=turns_on, other_tas=other_tas
-    ).least_separation
-
-
 def kept_on_heading(
     belief: Belief,
     assignment: Assignment,
@@ -187,7 +173,7 @@ def kept_on_heading(
     turns_on: bool = False,
     other_tas: MetrePerSecond | None = None,
 ) -> Kept:
-    """The same, and of whom."""
+    """What is kept if the pursuer turns the shorter way to a heading and keeps it, and of whom."""
     own, bank = belief.own, assignment.planned_bank
     turn = wrap_signed(heading - own.heading)
     side = 1.0 if turn > 0.0 else -1.0

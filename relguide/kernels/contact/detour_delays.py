@@ -1,4 +1,4 @@
-"""A path amid others that arrives just as the slot opens: none is faster, so the first one will do.
+"""A path amid others that arrives just as the slot opens. No path is faster, so any one will do.
 
 A first turn and a straight on a grid, the shortest first, and from there a path of just the length
 that is left, as without others.

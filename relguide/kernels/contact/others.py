@@ -34,7 +34,7 @@ _ROUNDING = 1e-9  # as in `piece_clears` [R]
 _NARROW = 1e-6  # a window this short that is undecided counts as too close [R/V_P]
 _MOST_WINDOWS = 4_096
 _DEPTH = 64
-_STEP = 1e-3  # while an aircraft turns, it is told from too close so closely [R/V_P]
+_STEP = 1e-3  # how closely times are found while an aircraft turns [R/V_P]
 _IN_SLOT = 5e-7  # as near as this to a minimum counts as keeping it, in the slot [R]
 _HALVINGS = 50
 

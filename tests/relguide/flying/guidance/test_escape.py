@@ -5,7 +5,7 @@ from math import inf
 
 import pytest
 
-from relguide.flying.guidance.escape import escape, separation_on_heading
+from relguide.flying.guidance.escape import escape, kept_on_heading
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
@@ -56,7 +56,7 @@ def test_clear_as_it_is_it_flies_straight_on() -> None:
 )
 def test_what_comes_towards_it_is_turned_away_from(along: float, heading: float) -> None:
     watched = ahead_of_us(along=along, heading=heading * DEG)
-    before = separation_on_heading(watched.belief, watched.assignment, 0.0)
+    before = kept_on_heading(watched.belief, watched.assignment, 0.0).least_separation
     out = escape(watched.belief, watched.assignment, LIMIT)
     assert before < LIMIT <= out.least_separation
     assert abs(wrap_signed(out.heading)) > 5.0 * DEG
@@ -69,7 +69,7 @@ def test_where_no_heading_keeps_clear_it_goes_where_most_is_kept() -> None:
     out = escape(watched.belief, watched.assignment, LIMIT)
     assert out.least_separation < LIMIT
     for degrees in range(-120, 121, 10):
-        kept = separation_on_heading(watched.belief, watched.assignment, degrees * DEG)
+        kept = kept_on_heading(watched.belief, watched.assignment, degrees * DEG).least_separation
         assert kept <= out.least_separation + 250.0  # its turns are 10° apart
 
 
@@ -95,7 +95,7 @@ def test_the_heading_nearest_to_the_present_one_is_taken() -> None:
     watched = ahead_of_us(along=30_000.0, heading=180.0 * DEG)
     out = escape(watched.belief, watched.assignment, LIMIT)
     half = 0.5 * wrap_signed(out.heading)
-    assert separation_on_heading(watched.belief, watched.assignment, half) < LIMIT
+    assert kept_on_heading(watched.belief, watched.assignment, half).least_separation < LIMIT
 
 
 BESIDE = behind(along=20_000.0, abeam=-12_000.0)
@@ -108,8 +108,8 @@ def test_a_turn_that_may_go_on_needs_more_room() -> None:
     for _ in range(12):
         watched.fly(Control(HOLD_HEADING, 0.0, 230.0))
     belief, assignment = watched.belief, watched.assignment
-    assert separation_on_heading(belief, assignment, 0.0) >= LIMIT
-    assert separation_on_heading(belief, assignment, 0.0, turns_on=True) < LIMIT
+    assert kept_on_heading(belief, assignment, 0.0).least_separation >= LIMIT
+    assert kept_on_heading(belief, assignment, 0.0, turns_on=True).least_separation < LIMIT
     assert escape(belief, assignment, LIMIT).heading == pytest.approx(0.0, abs=1e-9)
     out = escape(belief, assignment, LIMIT, turns_on=True)
     assert out.least_separation >= LIMIT
@@ -118,8 +118,10 @@ def test_a_turn_that_may_go_on_needs_more_room() -> None:
 
 def test_a_leader_that_may_slow_down_is_nearer() -> None:
     watched = ahead_of_us(along=16_000.0, heading=0.0)
-    steady = separation_on_heading(watched.belief, watched.assignment, 0.0)
-    slower = separation_on_heading(watched.belief, watched.assignment, 0.0, other_tas=150.0)
+    steady = kept_on_heading(watched.belief, watched.assignment, 0.0).least_separation
+    slower = kept_on_heading(
+        watched.belief, watched.assignment, 0.0, other_tas=150.0
+    ).least_separation
     assert slower < steady - 5_000.0
     out = escape(watched.belief, watched.assignment, 9_000.0, other_tas=150.0)
     assert out.least_separation >= 9_000.0 > slower
@@ -137,8 +139,8 @@ def test_a_declared_turn_is_reckoned_with() -> None:
     leader = replace(BESIDE.situation.leader, intent=intent)
     told = replace(BESIDE, situation=replace(BESIDE.situation, leader=leader))
     known, unknown = Watched(told), Watched(replace(told, intent_known=False))
-    assert separation_on_heading(known.belief, known.assignment, 0.0) < LIMIT
-    assert separation_on_heading(unknown.belief, unknown.assignment, 0.0) >= LIMIT
+    assert kept_on_heading(known.belief, known.assignment, 0.0).least_separation < LIMIT
+    assert kept_on_heading(unknown.belief, unknown.assignment, 0.0).least_separation >= LIMIT
     out = escape(known.belief, known.assignment, LIMIT)
     assert out.least_separation >= LIMIT
     assert flown_least(known, out.heading, 180) >= LIMIT - 60.0
