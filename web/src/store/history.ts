@@ -119,14 +119,17 @@ export function createHistory(): History {
       trailed = null;
     },
     knownAt,
-    seenAt: (t, news) => ({
-      sample: knots.sampleAt(Math.min(t, knots.span?.last ?? 0)),
-      before: knots.sampleAt(Math.min(t, knots.span?.last ?? 0) - news),
-      joinedAt: knots.joinedAt(t),
-      belowAt: knots.belowAt(t),
-      climbs: knots.climbsAt(t),
-      trail: trailAt(t),
-    }),
+    seenAt: (t, news) => {
+      const seen = Math.min(t, knots.span?.last ?? 0); // the newest, at the edge of a flight in the air
+      return {
+        sample: knots.sampleAt(seen),
+        before: knots.sampleAt(seen - news),
+        joinedAt: knots.joinedAt(t),
+        belowAt: knots.belowAt(t),
+        climbs: knots.climbsAt(seen),
+        trail: trailAt(t),
+      };
+    },
   };
 }
 

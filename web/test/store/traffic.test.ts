@@ -67,6 +67,11 @@ test("what flies beside the two is traffic, with its level, its climb and whom i
   expect(near?.climb).toBeCloseTo((-1000 * FT) / 60, 6);
 });
 
+test("at the edge of a flight in the air the newest seconds say how fast each climbs", () => {
+  const { climbs } = flown(60).seenAt(Number.POSITIVE_INFINITY, 1);
+  expect(climbs.get("BAW12")).toBeCloseTo((-1000 * FT) / 60, 6);
+});
+
 test("between two samples and with each frame traffic moves on", () => {
   const history = flown(60);
   const at = history.knots.sampleAt(30.5);
