@@ -167,6 +167,8 @@ interface Placed {
   readonly placements: ReadonlySignal<ReadonlyMap<string, Placement>>;
 }
 
+const NONE_BEFORE: ReadonlyMap<string, Placement> = new Map();
+
 function useLabels({ shown, view }: LayerProps, more: ReadonlySignal<More>): Placed {
   const labels = useComputed(
     () =>
@@ -174,14 +176,15 @@ function useLabels({ shown, view }: LayerProps, more: ReadonlySignal<More>): Pla
   );
   const forecast = usePart(shown, (picture) => picture.forecast);
   const placements = useMemo(() => {
-    let before: ReadonlyMap<string, Placement> = new Map();
+    let before = NONE_BEFORE;
     return computed(() => {
       void view.beat.value;
       void forecast.value;
       void shown.chosen.value;
       // Sides are chosen at the pace of reading; between, each label moves with its point.
       const all = [...labels.peek().values()];
-      before = untracked(() => choose({ shown, view }, all, before, more.peek().points));
+      const kept = shown.stands.value ? NONE_BEFORE : before;
+      before = untracked(() => choose({ shown, view }, all, kept, more.peek().points));
       return before;
     });
   }, [shown, view, labels, forecast, more]);
@@ -204,7 +207,7 @@ export function chooseLabels(
   more: More = NO_MORE.value,
 ): { label: Label; placement: Placement }[] {
   const labels = [...labelsOf(props), ...more.labels];
-  const placements = choose(props, labels, new Map(), more.points);
+  const placements = choose(props, labels, NONE_BEFORE, more.points);
   return labels.flatMap((label) => {
     const placement = placements.get(label.id);
     return placement === undefined ? [] : [{ label, placement }];

@@ -189,6 +189,8 @@ export interface Shown {
   readonly ghost: ReadonlySignal<Ghost | null>;
   /** What planners that are compared would fly; none while that is closed. */
   readonly rivals: ReadonlySignal<readonly Rival[]>;
+  /** Whether one instant stands on the page, so that nothing in its picture depends on what came before. */
+  readonly stands: ReadonlySignal<boolean>;
   /** The ident of the other aircraft whose numbers are shown; null for none. */
   readonly chosen: Signal<string | null>;
 }
@@ -200,7 +202,7 @@ const NO_RIVALS: ReadonlySignal<readonly Rival[]> = signal([]);
 const SUPERSEDED_SHOWN = 3;
 
 export function createShown(
-  { moment, read, since, isSent }: Flight,
+  { moment, read, since, isSent, source }: Flight,
   ghost: Shown["ghost"] = NO_GHOST,
   rivals: Shown["rivals"] = NO_RIVALS,
 ): Shown {
@@ -216,6 +218,7 @@ export function createShown(
     spoken: computed(() => announcementsOf(read.value)),
     ghost,
     rivals,
+    stands: computed(() => source.value.kind === "replay" && source.value.rate === 0),
     chosen: signal(null),
   };
 }

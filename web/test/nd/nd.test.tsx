@@ -305,3 +305,24 @@ test("the picture in words says mode, leader, time and separation", () => {
   expect(label).toMatch(/ROSE, range 80 nautical miles.*converging.*AF123 bearing 135, 30\.5/);
   expect(label).toContain("Slot in 14:45");
 });
+
+test("the picture of an instant that stands is the same whatever was shown before", async () => {
+  const standing = (t: number): Flight => {
+    const flight = flightAt("fig_6b", t);
+    flight.source.value = { kind: "replay", rate: 0 };
+    return flight;
+  };
+  const flight = standing(0);
+  const root = show(flight, "ARC", 80);
+  for (let t = 20; t < 800; t += 20) {
+    const next = standing(t);
+    await act(() => {
+      flight.moment.value = next.moment.value;
+      flight.read.value = next.read.value;
+    });
+    await drawn();
+    const places = (all: Element) =>
+      [...all.querySelectorAll(".nd-label")].map((each) => each.getAttribute("transform"));
+    expect(places(root)).toEqual(places(show(next, "ARC", 80)));
+  }
+});
