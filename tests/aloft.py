@@ -10,10 +10,11 @@ from relguide.flying.airframe import Airframe, airframe
 from relguide.flying.envelope import FL310
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.flight.by_hand import COLUMNS
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Body, Control, Drift, Limits
 from relguide.kernels.flight.guide import CONVERGE, Course, Progress, Task, act
 from relguide.kernels.flight.laws import Gains
-from relguide.kernels.flight.second import GUIDED, fly_second
+from relguide.kernels.flight.second import GUIDED, IntArray, fly_steps
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
 A306 = airframe("A306")
@@ -67,6 +68,20 @@ def hold(heading: float, tas: float = 240.0) -> Control:
 def steady(wind: Drift, count: int = 1, steps: int = round(1.0 / STEP)) -> FloatArray:
     """One wind at each step of a second, for so many aircraft. shape (count, steps + 1, 2)"""
     return np.tile(np.array(wind), (count, steps + 1, 1))
+
+
+def fly_second(
+    states: FloatArray, limits: FloatArray, pilots: IntArray, controls: FloatArray,
+    programs: FloatArray, lengths: IntArray, cursors: IntArray, helds: FloatArray,
+    winds: FloatArray, t: float, dt: float, trace: FloatArray, tallies: FloatArray,
+) -> None:  # fmt: skip
+    """A whole second of aircraft that no crew flies by hand, as `fly_steps` takes them."""
+    count, steps = len(states), trace.shape[1] - 1
+    fly_steps(
+        states, limits, pilots, controls, programs, lengths, cursors, helds,
+        np.zeros((count, COLUMNS)), np.zeros((count, steps)), winds, t, dt, 0, steps, trace,
+        np.zeros((count, steps + 1, 2)), tallies,
+    )  # fmt: skip
 
 
 def fly(

@@ -12,6 +12,8 @@ from relguide.cli.shared_tables import clock, miles
 from relguide.contract.flight_summary import FlightSummary, SummaryEvent
 from relguide.flying.documents import (
     Alert,
+    AssignmentChanged,
+    ControlChanged,
     EngagementChanged,
     LeaderChanged,
     ModeChanged,
@@ -77,6 +79,10 @@ def _event(event: SummaryEvent) -> tuple[str, str, str]:
             return clock(event.t), "no plan", answer.message
         case EngagementChanged(engagement=engagement):
             what = engagement
+        case ControlChanged(autopilot=autopilot):
+            what = "autopilot" if autopilot else "flown by hand"
+        case AssignmentChanged():
+            what = "assignment"
         case PlanRefused():
             what = "plan refused"
         case ModeChanged(mode=mode):

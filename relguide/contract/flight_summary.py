@@ -10,6 +10,9 @@ from relguide.contract.wire import to_wire
 from relguide.flying.aircraft_documents import ClosestOther, LinkResult
 from relguide.flying.documents import (
     Alert,
+    AssignmentChanged,
+    CommandGiven,
+    ControlChanged,
     Document,
     EngagementChanged,
     FanChanged,
@@ -35,6 +38,8 @@ SummaryEvent = (
     LeaderChanged
     | PlanChanged
     | EngagementChanged
+    | ControlChanged
+    | AssignmentChanged
     | PlanUnavailable
     | PlanRefused
     | ModeChanged
@@ -85,6 +90,7 @@ def summarize(documents: Iterable[Document]) -> FlightSummary:
                     | LeaderRoute()
                     | ForecastChanged()
                     | FanChanged()
+                    | CommandGiven()
                     | Sample()
                 ):
                     pass  # nothing that is said to anybody
@@ -92,6 +98,8 @@ def summarize(documents: Iterable[Document]) -> FlightSummary:
                     LeaderChanged()
                     | PlanChanged()
                     | EngagementChanged()
+                    | ControlChanged()
+                    | AssignmentChanged()
                     | PlanUnavailable()
                     | PlanRefused()
                     | ModeChanged()

@@ -118,6 +118,20 @@ ReferenceCard = HeadingReference | TurnRateReference
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Bars:
+    """The flight director's bars at one instant: what is commanded less what is flown."""
+
+    roll: Radian
+    """Commanded bank less bank, smoothed over half a second: positive asks to roll right."""
+    pitch: Radian
+    """Commanded flight path angle less the one flown: positive asks to pull up."""
+    commanded_bank: Radian
+    """What the autopilot would go for, or does, positive right wing down."""
+    commanded_climb: MetrePerSecond
+    """The same of the rate of climb."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class GuidanceSample:
     """What the guidance of one pursuer does at one instant, and how it stands to its leader."""
 
@@ -151,6 +165,12 @@ class GuidanceSample:
     """How far the crew has engaged it."""
     margin: Metre = 0.0
     """What guidance keeps beside d_min for what it is not certain of; 0 where all is exact."""
+    autopilot: bool = field(default=True, metadata=LEFT_OUT)
+    """Whether the autopilot flies the pursuer; if not, its crew does by hand."""
+    director: bool = field(default=False, metadata=LEFT_OUT)
+    """Whether the flight director is on."""
+    bars: tuple[Bars, ...] = field(default=(), metadata=LEFT_OUT)
+    """Its bars; none while they are out of view: it is off, or guidance is."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -180,6 +200,20 @@ class ClosestOther:
     """When."""
     min_separation: Metre
     """What was to be kept; 0 for a cell."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlownByHand:
+    """How a crew flew by hand."""
+
+    time: Second
+    """For how long."""
+    with_bars: Second
+    """… of that with the flight director's bars in view …"""
+    within_bar: Second
+    """… and of that with the bank within 2° of the commanded one."""
+    tube: Metre
+    """Largest distance beside the path that was tracked."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -220,6 +254,8 @@ class LinkResult:
     least_other: tuple[ClosestOther, ...] = field(default=(), metadata=LEFT_OUT)
     """Of all others the one that it came nearest to, measured by what was to be kept; none where
     there are no others."""
+    by_hand: tuple[FlownByHand, ...] = field(default=(), metadata=LEFT_OUT)
+    """How it was flown by hand; none where the autopilot flew all the while."""
 
 
 class _HasIdent(Protocol):

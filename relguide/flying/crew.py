@@ -3,12 +3,25 @@
 from collections.abc import Iterator
 from typing import assert_never
 
+from relguide.flying.assigning import obey_assignment
+from relguide.flying.by_hand import obey_hands
 from relguide.flying.documents import Document
 from relguide.flying.fleet import Fleet
 from relguide.flying.guidance.announcements import Event
 from relguide.flying.guidance.stand_by import hold_heading, order_engagement
 from relguide.flying.logbook import event_document
-from relguide.flying.orders import CrewCommand, LeaderData, PursuerHeading, SetEngagement
+from relguide.flying.orders import (
+    CrewCommand,
+    LeaderData,
+    PursuerBank,
+    PursuerHeading,
+    PursuerSpeed,
+    SetAutopilot,
+    SetDirector,
+    SetEngagement,
+    SetSpacing,
+    Stick,
+)
 from relguide.flying.pursuit import Pursuit
 from relguide.units import Second
 
@@ -26,6 +39,10 @@ def obey_crew(one: Pursuit, command: CrewCommand, fleet: Fleet, t: Second) -> It
             one.heard = None
         case LeaderData():
             one.heard = one.heard or belief
+        case SetAutopilot() | SetDirector() | Stick():
+            yield from obey_hands(one, command, fleet, t)
+        case PursuerBank() | PursuerSpeed() | SetSpacing():
+            yield from obey_assignment(one, command, fleet, t)
         case _:
             assert_never(command)
     for event in events:

@@ -27,6 +27,7 @@ from relguide.flying.guidance.announcements import AlertSubject as AlertSubject
 from relguide.flying.guidance.announcements import PlanReason as PlanReason
 from relguide.flying.guidance.announcements import UnableReason as UnableReason
 from relguide.flying.modes import Mode as Mode
+from relguide.flying.orders import Command
 from relguide.flying.plan_documents import (
     ADDED,
     LEFT_OUT,
@@ -37,7 +38,7 @@ from relguide.flying.plan_documents import (
     PlanCard,
 )
 from relguide.planning.acceptance import Fault as Fault
-from relguide.units import Metre, Radian, Second
+from relguide.units import Metre, MetrePerSecond, Radian, Second
 
 LeaderChange = Literal[
     "heading", "speed", "level", "intent_received", "intent_withdrawn", "intent_broken"
@@ -157,6 +158,55 @@ class EngagementChanged:
     """The same, if the order was refused."""
     message: str
     kind: Literal["engagement_changed"] = "engagement_changed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CommandGiven:
+    """An aircraft is ordered to do something, by its crew or by others.
+
+    A flight is flown again to the bit from its scenario, its seed and these.
+    """
+
+    t: Second
+    command: Command
+    kind: Literal["command_given"] = "command_given"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ControlChanged:
+    """The crew has taken control or given it back, or switched the flight director; or could not.
+
+    Guidance goes on in all cases: the autopilot follows it, or the crew does.
+    """
+
+    t: Second
+    ident: str
+    """The pursuer's."""
+    autopilot: bool
+    """Whether the autopilot flies now."""
+    director: bool
+    """Whether the flight director is on now."""
+    message: str
+    kind: Literal["control_changed"] = "control_changed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AssignmentChanged:
+    """The crew has changed what its guidance is to do; or what it ordered could not be done."""
+
+    t: Second
+    ident: str
+    """The pursuer's."""
+    slot_distance: Metre
+    """D from now on."""
+    min_separation: Metre
+    """d_min from now on."""
+    max_bank: Radian
+    """What plans turn with from now on."""
+    selected_tas: tuple[MetrePerSecond, ...]
+    """The speed that the crew has selected; none while guidance sets the speed."""
+    message: str
+    kind: Literal["assignment_changed"] = "assignment_changed"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -370,6 +420,9 @@ Document = (
     | PlanChanged
     | PlanProposed
     | EngagementChanged
+    | CommandGiven
+    | ControlChanged
+    | AssignmentChanged
     | PlanUnavailable
     | PlanRefused
     | ModeChanged

@@ -1,11 +1,14 @@
-"""How far a crew has engaged relative guidance, and the one table that says what may follow what.
+"""How far a crew has engaged relative guidance, who flies, and what may follow what.
 
 off: nobody is to be joined; designated: the leader is chosen, and paths to its slot are proposed;
-armed: the proposal is accepted, and waits for the order to be flown; engaged: guidance flies.
+armed: the proposal is accepted, and waits for the order to be flown; engaged: guidance commands.
+What guidance commands, the autopilot flies, or the crew by hand.
 """
 
 from collections.abc import Mapping
 from typing import Literal
+
+from relguide.units import DEG, Radian
 
 Engagement = Literal["off", "designated", "armed", "engaged"]
 
@@ -33,6 +36,26 @@ def refusal(now: Engagement, to: Engagement, *, proposed: bool) -> str:
     if to in MAY_BECOME[now]:
         return ""
     return f"Relative guidance is {_WORDS[now]}: {_NEXT[now]}"
+
+
+AUTOPILOT_BANK: Radian = 40.0 * DEG
+"""The autopilot takes an aircraft that banks no more than this [rad]."""
+
+
+def autopilot_refusal(*, on: bool, to: bool, bank: Radian) -> str:
+    """Why the crew may not take control, or give it back, in a sentence; empty if it may.
+
+    Args:
+        on: whether the autopilot flies.
+        to: whether it is to.
+        bank: of the aircraft now [rad].
+    """
+    if on == to:
+        return "The autopilot flies already." if on else "The crew has control already."
+    if to and abs(bank) > AUTOPILOT_BANK:
+        most = AUTOPILOT_BANK / DEG
+        return f"The bank is {abs(bank) / DEG:.0f}°: bring it below {most:.0f}° for the autopilot."
+    return ""
 
 
 _WORDS: Mapping[Engagement, str] = {

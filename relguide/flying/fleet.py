@@ -28,6 +28,8 @@ from relguide.flying.leaders.recorded import RecordedLeader, steps_of_track
 from relguide.flying.perception import CERTAIN, Perceived, Perception
 from relguide.flying.vertical import (
     begin_change,
+    climb_by_stick,
+    commanded_climb,
     engine_rates,
     fly_vertical,
     kept_tas,
@@ -36,15 +38,18 @@ from relguide.flying.vertical import (
 )
 from relguide.flying.world import Aircraft, Declared, Guided, Recorded, World
 from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.flight import by_hand
 from relguide.kernels.flight.energy import idle_deceleration
 from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits, limits_at
 from relguide.kernels.flight.gusts import STATE, gust_steps
 from relguide.kernels.flight.program import STRAIGHT, fly_program
 from relguide.kernels.flight.second import (
+    BY_BAR,
+    BY_STICK,
     GUIDED,
     PROGRAMMED,
     RECORDED,
-    fly_second,
+    fly_steps,
     least_between,
 )
 from relguide.planning.heights import VERTICAL_MINIMUM, WHOLE_METRE, Heights
@@ -107,11 +112,20 @@ class Fleet:
         self.limits = np.zeros((count, len(Limits._fields)))
         self.pilots = np.zeros(count, dtype=np.int64)
         self.controls = np.zeros((count, 3))
+        self.hands = np.zeros((count, by_hand.COLUMNS))
+        self.whites = np.zeros((count, steps))
+        self.pitches = np.zeros(count)
+        """Of the sticks, −1 … 1, pulled positive."""
+        self.bars = np.zeros((count, steps + 1, 2))
+        self.pilot_rngs: dict[int, np.random.Generator] = {}
+        """Of the pilots that follow a bar."""
         self.programs = np.zeros((count, 32, 3))
         self.lengths = np.zeros(count, dtype=np.int64)
         self.cursors = np.zeros(count, dtype=np.int64)
         self.helds = np.zeros(count)
         self.trace = np.zeros((count, steps + 1, 7))
+        self.rows = slice(0, steps + 1)
+        """Which rows of `trace` the last steps filled, with the one that they began from."""
         self.tallies = np.zeros((count, 4))
         self.altitudes = np.zeros((count, steps + 1))
         self.verticals = [level_at(aircraft.altitude) for aircraft in world.aircraft]
@@ -144,8 +158,12 @@ class Fleet:
             self.altitudes[i] = aircraft.altitude
             self.helds[i] = heading
             match aircraft.pilot:
-                case Guided():
+                case Guided(by_hand=pilot):
                     self.pilots[i] = GUIDED
+                    if pilot is not None:
+                        self.hands[i] = pilot.row(step)
+                        self.pilot_rngs[i] = np.random.default_rng([seed, count, 1 + i])
+                        self.take_stick(i)
                 case Declared(intent=intent):
                     rate = can.max_roll_rate
                     self.set_program(i, program_of(intent, heading, 0.0, aircraft.tas, rate))
@@ -197,6 +215,11 @@ class Fleet:
 
     def fly_second(self, t: Second) -> None:
         """All aircraft, one second on; `trace` then holds each step of it."""
+        self.begin_second(t)
+        self.fly_steps(t, 0, self.steps)
+
+    def begin_second(self, t: Second) -> None:
+        """Settle what holds for the second from t on: recordings, altitudes and winds."""
         first = round(t / self.step)
         self._climb(t)
         for i, recording in self.recordings.items():
@@ -206,10 +229,44 @@ class Fleet:
             now = level_at(float(levels[-1]))
             self.verticals[i] = now._replace(speed=float(levels[-1] - levels[0]))
         self._blow(t)
-        fly_second(
+        for i, rng in self.pilot_rngs.items():
+            self.whites[i] = rng.standard_normal(self.steps)
+
+    def fly_steps(self, t: Second, begin: int, end: int) -> None:
+        """All aircraft over some steps of the second from t on, once it is begun."""
+        self.rows = slice(begin, end + 1)
+        for i in np.flatnonzero(self.pilots == BY_STICK).tolist():
+            pitch, rates = float(self.pitches[i]), self._rates(i)
+            for k in range(begin, end):
+                now = climb_by_stick(self.verticals[i], pitch, *rates, self.step)
+                self.verticals[i], self.altitudes[i, k + 1] = now, now.altitude
+        fly_steps(
             self.states, self.limits, self.pilots, self.controls, self.programs, self.lengths,
-            self.cursors, self.helds, self.winds, t, self.step, self.trace, self.tallies,
+            self.cursors, self.helds, self.hands, self.whites, self.winds, t, self.step, begin,
+            end, self.trace, self.bars, self.tallies,
         )  # fmt: skip
+
+    def take_stick(self, i: int) -> None:
+        """Have a crew fly a guided aircraft: its pilot follows the bar if there is one."""
+        by_bar = i in self.pilot_rngs
+        self.pilots[i] = BY_BAR if by_bar else BY_STICK
+        self.hands[i, by_hand.STICK], self.pitches[i] = 0.0, 0.0
+
+    def give_back(self, i: int) -> None:
+        """Have the autopilot fly a guided aircraft."""
+        self.pilots[i] = GUIDED
+
+    def move_stick(self, i: int, roll: float, pitch: float) -> None:
+        """Deflect a stick: it stays there. −1 … 1, to the right and pulled positive."""
+        self.hands[i, by_hand.STICK], self.pitches[i] = roll, pitch
+
+    def is_by_hand(self, i: int) -> bool:
+        """Whether a crew flies an aircraft."""
+        return bool(self.pilots[i] in (BY_STICK, BY_BAR))
+
+    def is_by_stick(self, i: int) -> bool:
+        """Whether a crew moves the stick of an aircraft."""
+        return bool(self.pilots[i] == BY_STICK)
 
     def _climb(self, t: Second) -> None:
         """The altitudes of the second from t on, where they change, and the speeds that go with it.
@@ -222,7 +279,9 @@ class Fleet:
                     if t - 1.0 < at <= t or (t == 0.0 and at <= 0.0):
                         self.change_level(i, change.to_altitude, change.rate, change.hold)
             now, aircraft = self.verticals[i], self.world.aircraft[i]
-            if now.is_level and self.altitudes[i, 0] == now.altitude == self.altitudes[i, -1]:
+            rests = self.altitudes[i, 0] == now.altitude == self.altitudes[i, -1]
+            by_stick = self.is_by_stick(i)
+            if rests and (now.speed == 0.0 if by_stick else now.is_level):
                 continue
             air, guided = self.world.air, isinstance(aircraft.pilot, Guided)
             if guided and abs(now.altitude - self.limits_for[i]) > NEW_LIMITS:
@@ -230,9 +289,11 @@ class Fleet:
             limits, tas = self.level_limits[i], float(self.states[i, 5])
             climb, descent = aircraft.airframe.max_climb, aircraft.airframe.max_descent
             if guided:
-                slowing = bool(self.controls[i, 2] < tas - ASKED_LESS)
-                climb, descent = engine_rates(limits, aircraft.airframe, tas, slowing=slowing)
-            now, altitudes = fly_vertical(now, climb, descent, self.steps, self.step)
+                climb, descent = self._rates(i)
+            if by_stick:  # as it flies now: what the stick makes of it comes step by step
+                altitudes = now.altitude + now.speed * self.step * np.arange(self.steps + 1.0)
+            else:
+                now, altitudes = fly_vertical(now, climb, descent, self.steps, self.step)
             self.verticals[i], self.altitudes[i] = now, altitudes
             if self.pilots[i] == PROGRAMMED and not now.is_level and now.hold != "tas":
                 self.controls[i, 2] = kept_tas(now, aircraft.airframe, air)
@@ -241,6 +302,30 @@ class Fleet:
                 self.limits[i] = limits._replace(
                     climb_0=limits.climb_0 - paid, idle_0=limits.idle_0 - paid
                 )
+
+    def _rates(self, i: int) -> tuple[MetrePerSecond, MetrePerSecond]:
+        """The highest rates of climb and of descent of a guided aircraft now [m/s]."""
+        tas = float(self.states[i, 5])
+        slowing = bool(self.controls[i, 2] < tas - ASKED_LESS)
+        airframe = self.world.aircraft[i].airframe
+        return engine_rates(self.level_limits[i], airframe, tas, slowing=slowing)
+
+    def commanded_climb(self, i: int) -> MetrePerSecond:
+        """The rate of climb that is commanded of a guided aircraft now [m/s]."""
+        return commanded_climb(self.verticals[i], *self._rates(i), self.step)
+
+    def climb(self, i: int) -> MetrePerSecond:
+        """How fast an aircraft climbs now [m/s]."""
+        return self.verticals[i].speed
+
+    def commanded_bank(self, i: int, k: int | None = None) -> tuple[Radian, Radian]:
+        """Commanded bank and roll bar of a guided aircraft, at a step or at the last one [rad]."""
+        bank, bar = self.bars[i, -1 if k is None else k].tolist()
+        return bank, bar
+
+    def react(self, i: int, at: Second) -> None:
+        """Have the pilot of an aircraft answer the bar from then on, flight time [s]."""
+        self.hands[i, by_hand.REACTS_AT] = max(self.hands[i, by_hand.REACTS_AT], at)
 
     def _limit(self, i: int, altitude: Metre) -> None:
         """What a guided aircraft can do at another level, in truth and as it is believed."""
@@ -343,20 +428,21 @@ class Fleet:
         return inf if bool(self.by_height(i, j)[-1]) else self.apart(i, j)
 
     def by_height(self, i: int, j: int) -> NDArray[np.bool_]:
-        """Whether 1,000 ft kept two aircraft apart, at each step of the last second."""
-        apart = np.abs(self.altitudes[i] - self.altitudes[j])
+        """Whether 1,000 ft kept two aircraft apart, at each of the steps last flown."""
+        apart = np.abs(self.altitudes[i, self.rows] - self.altitudes[j, self.rows])
         kept: NDArray[np.bool_] = apart >= VERTICAL_MINIMUM - WHOLE_METRE
         return kept
 
     def least_apart(self, i: int, j: int) -> Metre:
-        """How near two aircraft came in the last second, where height did not keep them apart [m].
+        """How near two aircraft came in the steps last flown, where height did not keep them apart.
 
-        Infinite if it did all the while.
+        Infinite if it did all the while [m].
         """
         kept = self.by_height(i, j)
+        own, other = self.trace[i, self.rows], self.trace[j, self.rows]
         if not kept.any():
-            return least_between(self.trace[i], self.trace[j])[0]
-        apart = np.hypot(*(self.trace[i, ~kept, :2] - self.trace[j, ~kept, :2]).T)
+            return least_between(own, other)[0]
+        apart = np.hypot(*(own[~kept, :2] - other[~kept, :2]).T)
         return float(np.min(apart, initial=inf))
 
     def beyond_edge(self) -> str:

@@ -5,7 +5,7 @@ simulates it.
 """
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, assert_never
 
 from relguide.flying.air import Air
@@ -26,12 +26,13 @@ from relguide.flying.orders import LeaderSpeed as LeaderSpeed
 from relguide.flying.orders import PursuerHeading as PursuerHeading
 from relguide.flying.orders import SetEngagement as SetEngagement
 from relguide.flying.orders import no_commands as no_commands
+from relguide.flying.pilot_model import PilotModel
 from relguide.flying.queues import queue_up
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
 from relguide.flying.wind_profile import WindProfile
-from relguide.flying.world import Aircraft, Declared, Link, Recorded, World
+from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
 from relguide.planning.aircraft import Traffic
 from relguide.planning.cells import Cell
 from relguide.planning.inputs import (
@@ -102,6 +103,9 @@ class Scenario:
     """How the pursuer sees its leader."""
     spacing: Second = 0.0
     """Time behind the leader to keep once joined [s]; 0 to keep D."""
+    by_hand: PilotModel | None = None
+    """The pilot that flies it by hand along the flight director's bar; `None`: the autopilot does,
+    until the crew takes control."""
     ahead: tuple[Follower, ...] = ()
     """A queue behind the leader, whose last aircraft the pursuer joins; the first one first."""
     followers: tuple[Follower, ...] = ()
@@ -131,6 +135,8 @@ class Scenario:
         if self.believed_air is not None:
             expect("believed_air", self.believed_air, Air)
         expect("surveillance", self.surveillance, Surveillance)
+        if self.by_hand is not None:
+            expect("by_hand", self.by_hand, PilotModel)
         if number("duration_limit", self.duration_limit) <= 0.0:
             raise ValueError(f"duration_limit must be above 0 s, not {self.duration_limit}.")
         if number("after_joining", self.after_joining) < 0.0:
@@ -284,7 +290,9 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
             assert_never(scenario.leader_source)
     return World(
         aircraft=(
-            first.aircraft(scenario.altitude, seed),
+            replace(
+                first.aircraft(scenario.altitude, seed), pilot=Guided(by_hand=scenario.by_hand)
+            ),
             Aircraft(
                 ident=scenario.leader_ident,
                 airframe=_leader_airframe(scenario.leader_type),

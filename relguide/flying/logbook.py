@@ -9,6 +9,7 @@ import numpy as np
 from relguide.flying.aircraft import AircraftState, ground_velocity
 from relguide.flying.aircraft_documents import (
     AircraftSample,
+    Bars,
     CellCard,
     GuidanceSample,
     HeadingReference,
@@ -84,10 +85,23 @@ class PairNames(NamedTuple):
     leader: str
 
 
+class LinkState(NamedTuple):
+    """How a link stands."""
+
+    names: PairNames
+    advice: Advice
+    """The last one that guidance gave."""
+    least: Metre
+    """Least separation so far."""
+    autopilot: bool = True
+    director: bool = False
+    bars: tuple[Bars, ...] = ()
+
+
 def sample(
     t: Second,
     aircraft: Sequence[tuple[str, AircraftState, Wind]],
-    links: Sequence[tuple[PairNames, Advice, Metre]],
+    links: Sequence[LinkState],
     since: Second,
 ) -> Sample:
     """The flight at one instant.
@@ -95,28 +109,24 @@ def sample(
     Args:
         t: flight time [s].
         aircraft: ident and state of each, and the wind that moves it.
-        links: of each, who flies, the last advice that guidance gave, and the least separation.
-        since: how long ago it was given [s]; the slots have moved since.
+        links: how each stands.
+        since: how long ago guidance gave its advice [s]; the slots have moved since.
     """
     samples = tuple(_aircraft_sample(ident, state, wind) for ident, state, wind in aircraft)
     return Sample(
         t=t,
         aircraft=samples,
-        guidance=tuple(
-            _guidance_sample(t, samples, names, advice, least, since)
-            for names, advice, least in links
-        ),
+        guidance=tuple(_guidance_sample(t, samples, link, since) for link in links),
     )
 
 
 def _guidance_sample(
     t: Second,
     samples: tuple[AircraftSample, ...],
-    names: PairNames,
-    advice: Advice,
-    least: Metre,
+    link: LinkState,
     since: Second,
 ) -> GuidanceSample:
+    names, advice = link.names, link.advice
     own, other = find_by_ident(samples, names.pursuer), find_by_ident(samples, names.leader)
     east, north = other.x - own.x, other.y - own.y
     separation = hypot(east, north)
@@ -142,7 +152,7 @@ def _guidance_sample(
         commanded_tas=advice.control.tas,
         separation=separation,
         closure=closure,
-        least_separation=least if by_height else min(least, separation),
+        least_separation=link.least if by_height else min(link.least, separation),
         slot=PathPoint(t=t, x=slot_x, y=slot_y, heading=wrap(slot.heading + 2.0 * half_turn)),
         slot_open=advice.slot_open,
         spacing_error=-(dx * slot_east + dy * slot_north) / slot_speed,
@@ -153,6 +163,9 @@ def _guidance_sample(
         leader_age=advice.leader_age + since if advice.leader_age > 0.0 else 0.0,
         margin=advice.margin,
         engagement=advice.engagement,
+        autopilot=link.autopilot,
+        director=link.director,
+        bars=link.bars,
     )
 
 

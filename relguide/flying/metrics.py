@@ -6,7 +6,8 @@ from math import inf
 
 import numpy as np
 
-from relguide.flying.aircraft_documents import ClosestOther, LinkResult, Loss
+from relguide.flying.aircraft_documents import ClosestOther, FlownByHand, LinkResult, Loss
+from relguide.flying.by_hand import bars_in_view
 from relguide.flying.documents import (
     Alert,
     Document,
@@ -22,7 +23,7 @@ from relguide.flying.world import kept_from
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.second import REVERSALS, SWING, TRACK
 from relguide.planning.cells import outside
-from relguide.units import Metre, Second
+from relguide.units import DEG, Metre, Radian, Second
 
 RECENT: Second = 120.0
 """A loss so soon after something new of the leader is put down to it [s]."""
@@ -94,8 +95,8 @@ def count_loss(metrics: FlightMetrics, least: Metre, other: str = "") -> FlightM
     return metrics._replace(losses=tuple(losses))
 
 
-def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
-    """Count the second flown from t on; whether separation was lost in it."""
+def count_steps(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
+    """Count the steps last flown, from t on; whether separation was lost in them."""
     least = fleet.least_apart(one.pursuer, one.ahead)
     row = fleet.tallies[one.pursuer]
     metrics = one.metrics._replace(least_separation=min(least, one.metrics.least_separation))
@@ -110,6 +111,8 @@ def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
             along_error=max(metrics.along_error, abs(one.advice.along)),
             across_error=max(metrics.across_error, abs(one.advice.across)),
         )
+    if not one.autopilot:
+        metrics = metrics._replace(by_hand=_count_by_hand(one, fleet))
     one.metrics = metrics
     said = list[SeparationLost]()
     limit = one.link.min_separation
@@ -125,8 +128,30 @@ def count_second(one: Pursuit, fleet: Fleet, t: Second) -> list[SeparationLost]:
     return [*said, *_count_others(one, fleet, t)]
 
 
+WITHIN_BAR: Radian = 2.0 * DEG
+"""So near the commanded bank, a crew follows the bar [rad]."""
+
+
+def _count_by_hand(one: Pursuit, fleet: Fleet) -> FlownByHand:
+    """How it was flown by hand so far, with the steps last flown."""
+    before = one.metrics.by_hand or FlownByHand(time=0.0, with_bars=0.0, within_bar=0.0, tube=0.0)
+    i, across = one.pursuer, 0.0
+    begin, end = fleet.rows.start, fleet.rows.stop - 1
+    error = fleet.bars[i, begin + 1 : end + 1, 0] - fleet.trace[i, begin:end, 3]
+    flown = fleet.step * len(error)
+    in_view = flown if bars_in_view(one) else 0.0
+    if one.advice is not None and one.advice.mode in ("converge", "capture", "follow"):
+        across = abs(one.advice.across)
+    return FlownByHand(
+        time=before.time + flown,
+        with_bars=before.with_bars + in_view,
+        within_bar=before.within_bar + in_view * float(np.mean(np.abs(error) <= WITHIN_BAR)),
+        tube=max(before.tube, across),
+    )
+
+
 def _count_others(one: Pursuit, fleet: Fleet, t: Second) -> Iterator[SeparationLost]:
-    """How near all others came in the second from t on, and which are too near now."""
+    """How near all others came in the steps last flown, from t on; which are too near now."""
     lost = set(one.lost_others)
     for ident, limit, apart in _others_apart(one, fleet, t):
         k = int(np.argmin(apart))
@@ -156,11 +181,11 @@ def _others_apart(one: Pursuit, fleet: Fleet, t: Second) -> Iterator[tuple[str, 
 
     That is infinite where height kept both apart.
     """
-    own = fleet.trace[one.pursuer, :, :2]
+    own = fleet.trace[one.pursuer, fleet.rows, :2]
     for j, aircraft in enumerate(fleet.world.aircraft):
         if j not in (one.pursuer, one.ahead):
             limit = kept_from(aircraft, one.link)
-            apart = np.hypot(*(own - fleet.trace[j, :, :2]).T)
+            apart = np.hypot(*(own - fleet.trace[j, fleet.rows, :2]).T)
             yield aircraft.ident, limit, np.where(fleet.by_height(one.pursuer, j), inf, apart)
     times = t + fleet.step * np.arange(float(len(own)))
     for cell in fleet.world.cells:
@@ -176,12 +201,12 @@ def _loss(
     limit: Metre,
     cause: str,
 ) -> SeparationLost:
-    """The loss that began in the second from t on.
+    """The loss that began in the steps last flown, from t on.
 
     Args:
         one: whose.
         fleet: its aircraft.
-        t: flight time at the beginning of the second [s].
+        t: flight time at the first of them [s].
         other: whom it came too close to.
         apart: how far apart they were at each step [m].
         limit: what was to be kept [m].
@@ -189,8 +214,8 @@ def _loss(
     """
     below = np.flatnonzero(apart < limit)
     k = int(below[0]) if len(below) else int(np.argmin(apart))
-    separation, k = float(apart[k]), min(k, fleet.steps - 1)
-    own = fleet.state(one.pursuer, k)
+    separation, k = float(apart[k]), min(k, len(apart) - 2)
+    own = fleet.state(one.pursuer, fleet.rows.start + k)
     return SeparationLost(
         t=t + k * fleet.step,
         ident=one.names.pursuer,
@@ -213,11 +238,11 @@ def _announced(metrics: FlightMetrics, other: str, leader: str) -> tuple[Second,
 
 
 def _apart(fleet: Fleet, i: int, j: int) -> FloatArray:
-    """How far two aircraft were apart at each step of the last second [m].
+    """How far two aircraft were apart at each of the steps last flown [m].
 
     Infinite where 1,000 ft kept them apart.
     """
-    apart = np.hypot(*(fleet.trace[i, :, :2] - fleet.trace[j, :, :2]).T)
+    apart = np.hypot(*(fleet.trace[i, fleet.rows, :2] - fleet.trace[j, fleet.rows, :2]).T)
     return np.where(fleet.by_height(i, j), inf, apart)
 
 
@@ -277,4 +302,5 @@ def link_result(
         along_error=metrics.along_error,
         across_error=metrics.across_error,
         least_other=() if metrics.least_other is None else (metrics.least_other,),
+        by_hand=() if metrics.by_hand is None else (metrics.by_hand,),
     )

@@ -1,22 +1,18 @@
-"""Commands to a flight in the air, whom they are for, and what a leader does with them."""
+"""Commands to a flight in the air, and whom they are for."""
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import Literal, assert_never, get_args
+from typing import Literal, get_args
 
-from relguide.flying.documents import Engagement, LeaderChanged
-from relguide.flying.envelope import flight_level
-from relguide.flying.fleet import Fleet
+from relguide.flying.engagement import Engagement
 from relguide.flying.leaders.declared import TurnChoice
-from relguide.kernels.base.angles import wrap
-from relguide.planning.inputs import expect_within, text, truth
-from relguide.planning.limits import ALTITUDE, HEADING, TAS, VERTICAL_RATE
-from relguide.planning.phrases import compass
+from relguide.planning.inputs import Range, expect_within, number, text, truth
+from relguide.planning.limits import ALTITUDE, BANK, DISTANCE, HEADING, TAS, VERTICAL_RATE
 from relguide.planning.reprs import as_code
-from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, Second
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
-ORDERED_BANK: Radian = 25.0 * DEG
-"""Of the turns that a leader makes when ordered to [rad]."""
+DEFLECTION = Range(-1.0, 1.0, "of full deflection")
+"""Of a stick."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -141,6 +137,119 @@ class SetEngagement:
         text("ident", self.ident)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PursuerBank:
+    """The crew selects the bank that plans turn with."""
+
+    bank: Radian
+    """φ_max [rad], > 0."""
+    ident: str = ""
+    """Of the pursuer whose crew does so; empty for the first link's."""
+    kind: Literal["pursuer_bank"] = "pursuer_bank"
+    __repr__ = as_code
+
+    def __post_init__(self) -> None:
+        """Refuse a bank outside the accepted range."""
+        expect_within("bank", self.bank / DEG, *BANK)
+        text("ident", self.ident)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PursuerSpeed:
+    """The crew selects a speed in place of the one that guidance asks for."""
+
+    tas: MetrePerSecond
+    """True airspeed [m/s]; 0 leaves the speed to guidance again."""
+    ident: str = ""
+    """Of the pursuer whose crew does so; empty for the first link's."""
+    kind: Literal["pursuer_speed"] = "pursuer_speed"
+    __repr__ = as_code
+
+    def __post_init__(self) -> None:
+        """Refuse a speed outside the accepted range."""
+        if number("tas", self.tas) != 0.0:
+            object.__setattr__(self, "tas", expect_within("tas", self.tas, *TAS))
+        text("ident", self.ident)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetSpacing:
+    """The crew changes D, d_min or both in flight."""
+
+    slot_distance: Metre = 0.0
+    """D [m]; 0 leaves it as it is."""
+    min_separation: Metre = 0.0
+    """d_min [m]; 0 leaves it as it is."""
+    ident: str = ""
+    """Of the pursuer whose crew does so; empty for the first link's."""
+    kind: Literal["set_spacing"] = "set_spacing"
+    __repr__ = as_code
+
+    def __post_init__(self) -> None:
+        """Refuse distances outside the accepted range, and none at all."""
+        for name in ("slot_distance", "min_separation"):
+            value = expect_within(name, getattr(self, name), *DISTANCE)
+            object.__setattr__(self, name, value)
+        if self.slot_distance == self.min_separation == 0.0:
+            raise ValueError("Give slot_distance or min_separation, or both.")
+        text("ident", self.ident)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetAutopilot:
+    """The crew takes control from the autopilot (`False`), or gives it back (`True`)."""
+
+    on: bool
+    ident: str = ""
+    """Of the pursuer whose crew does so; empty for the first link's."""
+    kind: Literal["set_autopilot"] = "set_autopilot"
+    __repr__ = as_code
+
+    def __post_init__(self) -> None:
+        """Refuse what is no truth value."""
+        object.__setattr__(self, "on", truth("on", self.on))
+        text("ident", self.ident)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetDirector:
+    """The crew switches the flight director's bars on (`True`) or off."""
+
+    on: bool
+    ident: str = ""
+    """Of the pursuer whose crew does so; empty for the first link's."""
+    kind: Literal["set_director"] = "set_director"
+    __repr__ = as_code
+
+    def __post_init__(self) -> None:
+        """Refuse what is no truth value."""
+        object.__setattr__(self, "on", truth("on", self.on))
+        text("ident", self.ident)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stick:
+    """The crew moves the stick, which stays there until the next such order.
+
+    Deflections ask for rates: neutral keeps the bank, and the rate of climb.
+    """
+
+    roll: float
+    """1 asks for the type's full rate of roll to the right, −1 to the left."""
+    pitch: float = 0.0
+    """1 pulls up with 0.1 g, −1 pushes down with as much."""
+    ident: str = ""
+    """Of the pursuer whose crew does so; empty for the first link's."""
+    kind: Literal["stick"] = "stick"
+    __repr__ = as_code
+
+    def __post_init__(self) -> None:
+        """Refuse more than full deflection."""
+        for name in ("roll", "pitch"):
+            object.__setattr__(self, name, expect_within(name, getattr(self, name), *DEFLECTION))
+        text("ident", self.ident)
+
+
 def expect_engagement(value: object) -> None:
     """Refuse what is no engagement.
 
@@ -158,7 +267,17 @@ def _settle_heading(order: LeaderHeading | PursuerHeading) -> None:
 
 LeaderCommand = LeaderHeading | LeaderSpeed | LeaderLevel | IntentKnown
 """What a leader does, or any other aircraft that is not guided."""
-CrewCommand = LeaderData | PursuerHeading | SetEngagement
+CrewCommand = (
+    LeaderData
+    | PursuerHeading
+    | PursuerBank
+    | PursuerSpeed
+    | SetSpacing
+    | SetEngagement
+    | SetAutopilot
+    | SetDirector
+    | Stick
+)
 """What a pursuer's crew does, and what it receives."""
 Command = LeaderCommand | CrewCommand
 
@@ -199,46 +318,3 @@ def order_fault(
                 those = ", ".join(pursuers) or "none of them"
                 return f"{ident} is no pursuer, so it has no crew to order: {those} is."
     return ""
-
-
-def obey(
-    command: LeaderCommand, fleet: Fleet, i: int, known: bool, t: Second
-) -> tuple[bool, tuple[LeaderChanged, ...]]:
-    """Carry out a command: whether the intent is known then, and what is said of it.
-
-    Args:
-        command: what is asked.
-        fleet: does as it is ordered.
-        i: which of the fleet is ordered.
-        known: whether its intent was known before.
-        t: flight time [s].
-    """
-    ident = fleet.world.aircraft[i].ident
-    who = command.ident or "The leader"
-    match command:
-        case LeaderHeading(heading=heading, direction=direction):
-            fleet.turn(i, wrap(heading), direction, ORDERED_BANK)
-            message = f"{who} is instructed to turn to {compass(heading)}."
-            return known, (LeaderChanged(t=t, ident=ident, change="heading", message=message),)
-        case LeaderSpeed(tas=tas):
-            fleet.set_speed(i, tas)
-            message = f"{who} is instructed to fly {tas / KT:.0f} kt."
-            return known, (LeaderChanged(t=t, ident=ident, change="speed", message=message),)
-        case LeaderLevel(altitude=altitude, rate=rate):
-            below = altitude < fleet.verticals[i].altitude
-            fleet.change_level(i, altitude, rate, "cas")
-            way, level = "descend" if below else "climb", flight_level(altitude)
-            message = f"{who} is instructed to {way} to {level}."
-            return known, (LeaderChanged(t=t, ident=ident, change="level", message=message),)
-        case IntentKnown(known=now) if now == known:
-            return known, ()
-        case IntentKnown(known=True):
-            message = f"{who}'s intent is received."
-            said = LeaderChanged(t=t, ident=ident, change="intent_received", message=message)
-            return True, (said,)
-        case IntentKnown():
-            message = f"{who}'s intent is withdrawn."
-            said = LeaderChanged(t=t, ident=ident, change="intent_withdrawn", message=message)
-            return False, (said,)
-        case _:
-            assert_never(command)

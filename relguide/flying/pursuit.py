@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from relguide.flying.aircraft_documents import ClosestOther, Loss
+from relguide.flying.aircraft_documents import ClosestOther, FlownByHand, Loss
 from relguide.flying.belief import SEEMS, SPARE, Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
 from relguide.flying.fleet import Fleet, Flown, dependable_deceleration, limits_of
@@ -89,6 +89,8 @@ class FlightMetrics(NamedTuple):
     """Largest along the route while it followed."""
     across_error: Metre = 0.0
     """Largest beside it."""
+    by_hand: FlownByHand | None = None
+    """`None` while the autopilot has flown all the time."""
     least_other: ClosestOther | None = None
     """Of all others the one that it came nearest to, measured by what is to be kept."""
 
@@ -128,6 +130,12 @@ class Pursuit:
     shown_forecast: Forecast | None = None
     fits: tuple[Metre, float] = (0.0, 0.0)
     """For which level [m], and in which descent [m/s²], the assignment is."""
+    autopilot: bool = True
+    """Whether the autopilot flies; if not, the crew does by hand."""
+    director: bool = False
+    """Whether the flight director is on."""
+    selected_tas: MetrePerSecond = 0.0
+    """The speed that the crew has selected; 0 while guidance sets the speed [m/s]."""
     lost: bool = False
     """Whether the separation is below d_min."""
     seen_others: tuple[SeenOther, ...] = ()
@@ -269,6 +277,7 @@ def begin_pursuit(
     declared = None if intent is None else fleet.as_declared(j, intent)
     belief = fleet.belief(i, j, track, 0.0, flown.intent_known, declared, seen)
     assignment = assignment_of(world, flown)
+    by_hand = fleet.is_by_hand(i)
     return Pursuit(
         link=link,
         names=PairNames(link.pursuer, link.leader),
@@ -292,6 +301,8 @@ def begin_pursuit(
         metrics=FlightMetrics(fleet.apart(i, world.index(link.leader))),
         idle_deceleration=assignment.idle_deceleration,
         fits=(world.aircraft[i].altitude, 0.0),
+        autopilot=not by_hand,
+        director=by_hand,
     )
 
 

@@ -5,18 +5,21 @@
 Everything else that flies a plan, live or not, iterates over these documents.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator
 from functools import partial
 from itertools import count
 from typing import get_args
 
 from relguide.flying.aircraft_ahead import mind_ahead, to_keep_clear_of, watch_ahead
 from relguide.flying.aircraft_documents import AircraftCard, LinkCard
+from relguide.flying.assigning import with_selected_speed
 from relguide.flying.belief import Belief
 from relguide.flying.braking import learn_braking
+from relguide.flying.by_hand import bars_of, mind_reaction
 from relguide.flying.cards import wind_card
 from relguide.flying.crew import obey_crew
 from relguide.flying.documents import (
+    CommandGiven,
     Document,
     EndReason,
     Engagement,
@@ -36,15 +39,22 @@ from relguide.flying.leader_watch import (
     note_command,
     watch_leader,
 )
-from relguide.flying.logbook import cell_card, event_document, forecast_document, sample
-from relguide.flying.metrics import count_event, count_second, link_result
+from relguide.flying.logbook import (
+    LinkState,
+    cell_card,
+    event_document,
+    forecast_document,
+    sample,
+)
+from relguide.flying.metrics import count_event, count_steps, link_result
 from relguide.flying.optimum import optimum
+from relguide.flying.ordered import obey
 from relguide.flying.orders import (
     Command,
     CrewCommand,
+    Stick,
     expect_engagement,
     no_commands,
-    obey,
     order_fault,
 )
 from relguide.flying.pursuit import Pursuit, begin_pursuit, fit_to_level, keep_margin
@@ -146,10 +156,12 @@ def _simulate(
         if not one.queued:
             yield expected_route(one, one.view.shown)
     sky = Sky(world, fleet, start.seed)
+    later: list[Command] = []
     for second in count():
         t = float(second)
-        for command in commands(t):
+        for command in (*later, *commands(t)):
             yield from _obey(command, fleet, pursuits, t)
+        later = []
         for one in pursuits:
             yield from _guide(one, pursuits, fleet, sky, guide, fan, t)
         end = _end(pursuits, fleet, t, until, after_joining)
@@ -157,16 +169,51 @@ def _simulate(
             yield from _finish(pursuits, fleet, t, *end)
             return
         least = [one.metrics.least_separation for one in pursuits]
-        fleet.fly_second(t)
+        sampled = range(-second * fleet.steps % a_sample, fleet.steps, a_sample)
+        if any(fleet.is_by_stick(one.pursuer) for one in pursuits):
+            later = yield from _fly_by_stick(pursuits, fleet, commands, sampled, t)
+        else:
+            fleet.fly_second(t)
+            documents: list[Document] = []
+            for one in pursuits:
+                documents += count_steps(one, fleet, t)
+            for k in sampled:
+                now = _sample(pursuits, least, fleet, t, k * step, k)
+                least = [seen.least_separation for seen in now.guidance]
+                documents.append(now)
+            yield from sorted(documents, key=lambda document: document.t)
         sky.fly_second(t)
-        documents: list[Document] = []
+
+
+def _fly_by_stick(
+    pursuits: list[Pursuit],
+    fleet: Fleet,
+    commands: Callable[[Second], Iterable[Command]],
+    sampled: Collection[int],
+    t: Second,
+) -> Generator[Document, None, list[Command]]:
+    """A second flown step by step: a stick moves at once, all else is for the next second.
+
+    Returns:
+        What was ordered and is still to be done.
+    """
+    later: list[Command] = []
+    fleet.begin_second(t)
+    for k in range(fleet.steps):
+        now = t + k * fleet.step
+        if k in sampled:
+            least = [one.metrics.least_separation for one in pursuits]
+            yield _sample(pursuits, least, fleet, t, now - t, k)
+        if k > 0:
+            for command in commands(now):
+                if isinstance(command, Stick):
+                    yield from _obey(command, fleet, pursuits, now)
+                else:
+                    later.append(command)
+        fleet.fly_steps(t, k, k + 1)
         for one in pursuits:
-            documents += count_second(one, fleet, t)
-        for k in range(-second * fleet.steps % a_sample, fleet.steps, a_sample):
-            now = _sample(pursuits, least, fleet, t, k * step, k)
-            least = [seen.least_separation for seen in now.guidance]
-            documents.append(now)
-        yield from sorted(documents, key=lambda document: document.t)
+            yield from count_steps(one, fleet, now)
+    return later
 
 
 def whole_steps(duration: Second, step: Second) -> int:
@@ -229,6 +276,7 @@ def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) ->
     fault = order_fault(command, [aircraft.ident for aircraft in world.aircraft], links)
     if fault:
         raise ValueError(fault)
+    yield CommandGiven(t=t, command=command)
     if isinstance(command, CrewCommand):
         for one in _pursuits_of(command.ident, pursuits):
             yield from obey_crew(one, command, fleet, t)
@@ -275,6 +323,7 @@ def _guide(
         document = event_document(t, one.watched, event)
         one.metrics = count_event(one.metrics, document, one.names.leader)
         yield document
+    mind_reaction(one, fleet, advice.events, t)
     if advice.forecast is not None and advice.forecast is not one.shown_forecast:
         one.shown_forecast = advice.forecast
         yield forecast_document(t, one.names.pursuer, advice.forecast, belief.spread)
@@ -282,7 +331,7 @@ def _guide(
         one.metrics = one.metrics._replace(joined=True, join_time=t)
     one.advice = advice
     yield from fan(one, belief)
-    fleet.control(one.pursuer, advice.control)
+    fleet.control(one.pursuer, with_selected_speed(one, advice.control))
     level = follow_level(one.memory, belief, one.assignment)
     if level is not None:
         fleet.change_level(one.pursuer, level.to, level.rate)
@@ -345,7 +394,9 @@ def _sample(
     `least` are the least separations before: the whole second is flown, but not shown yet.
     """
     links = [
-        (one.names, one.advice, before)
+        LinkState(
+            one.names, one.advice, before, one.autopilot, one.director, bars_of(one, fleet, step)
+        )
         for one, before in zip(pursuits, least, strict=True)
         if one.advice is not None
     ]

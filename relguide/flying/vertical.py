@@ -123,6 +123,43 @@ def engine_rates(
     )
 
 
+def commanded_climb(
+    now: Vertical, climb: MetrePerSecond, descent: MetrePerSecond, dt: Second
+) -> MetrePerSecond:
+    """The rate of climb to go for: the autopilot's, and the flight director's [m/s].
+
+    Args:
+        now: as it flies.
+        climb: the highest rate [m/s].
+        descent: the same downward [m/s].
+        dt: a step [s].
+    """
+    most = min(now.rate, climb if now.to > now.altitude else descent)
+    return _towards(now.to - now.altitude, now.speed, most, dt)
+
+
+def _towards(way: Metre, speed: MetrePerSecond, most: MetrePerSecond, dt: Second) -> MetrePerSecond:
+    """The rate of climb that levels off at the end of a way [m/s]."""
+    left = max(abs(way) - abs(speed) * dt, 0.0)
+    return copysign(min(most, sqrt(2.0 * CAPTURE * left)), way)
+
+
+def climb_by_stick(
+    now: Vertical, pitch: float, climb: MetrePerSecond, descent: MetrePerSecond, dt: Second
+) -> Vertical:
+    """A step on by hand: full deflection pulls 0.1 g, neutral keeps the rate of climb.
+
+    Args:
+        now: as it flies.
+        pitch: of the stick, −1 … 1, pulled positive.
+        climb: the highest rate [m/s].
+        descent: the same downward [m/s].
+        dt: the step [s].
+    """
+    speed = min(max(now.speed + pitch * PULL * dt, -descent), climb)
+    return now._replace(altitude=now.altitude + 0.5 * (now.speed + speed) * dt, speed=speed)
+
+
 def fly_vertical(
     now: Vertical, climb: MetrePerSecond, descent: MetrePerSecond, steps: int, dt: Second
 ) -> tuple[Vertical, FloatArray]:
@@ -143,9 +180,7 @@ def fly_vertical(
     altitudes[0] = altitude
     most = min(now.rate, climb if now.to > now.altitude else descent)
     for k in range(steps):
-        way = now.to - altitude
-        left = max(abs(way) - abs(speed) * dt, 0.0)
-        wanted = copysign(min(most, sqrt(2.0 * CAPTURE * left)), way)
+        wanted = _towards(now.to - altitude, speed, most, dt)
         before, change = speed, min(max(wanted - speed, -PULL * dt), PULL * dt)
         speed += change
         altitude += 0.5 * (before + speed) * dt

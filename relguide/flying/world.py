@@ -7,6 +7,7 @@ from relguide.flying.air import STANDARD_AIR, Air
 from relguide.flying.airframe import Airframe
 from relguide.flying.envelope import envelope_fault
 from relguide.flying.guidance.settings import DEFAULT, Settings
+from relguide.flying.pilot_model import PilotModel
 from relguide.flying.slots import refuse_taken
 from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
@@ -35,7 +36,15 @@ RANGES = {"x": POSITION, "y": POSITION, "heading": HEADING, "tas": TAS, "altitud
 class Guided:
     """Flies what its guidance asks for."""
 
+    by_hand: PilotModel | None = None
+    """The pilot that flies it by hand along the flight director's bar; `None`: the autopilot does,
+    until its crew takes control."""
     kind: Literal["guided"] = "guided"
+
+    def __post_init__(self) -> None:
+        """Refuse what is no pilot."""
+        if self.by_hand is not None:
+            expect("by_hand", self.by_hand, PilotModel)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,7 +16,7 @@ import numpy as np
 from relguide.flying.fleet import Fleet
 from relguide.flying.world import Guided, World
 from relguide.kernels.base.angles import wrap_signed
-from relguide.kernels.flight.autopilot import aileron
+from relguide.kernels.flight.autopilot import aileron, commanded_bank
 from relguide.kernels.flight.energy import least_tas, load_square
 from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits, limits_at, store
 from relguide.kernels.flight.second import RECORDED
@@ -78,7 +78,8 @@ class A320:
         The heading is the way it moves through the air as the wind alone moves that.
         """
         fdm, frames, before = self.fdm, round(dt * FRAMES), self.body
-        asked, integral = aileron(before, control, limits, dt)
+        bank, integral = commanded_bank(before, control, limits, dt)
+        asked = aileron(bank, before, limits)
         least = least_tas(limits, load_square(before.bank))
         tas = min(max(control.tas, least), limits.max_tas)
         x, y = before.x, before.y

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-e24a37f03f9b";
+export const PROTOCOL = "relguide-4390b71475b5";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -109,6 +109,9 @@ export type Document =
   | PlanChanged
   | PlanProposed
   | EngagementChanged
+  | CommandGiven
+  | ControlChanged
+  | AssignmentChanged
   | PlanUnavailable
   | PlanRefused
   | ModeChanged
@@ -297,6 +300,35 @@ export interface ArrivalCard {
   early_s: number;
 }
 
+/** The crew has changed what its guidance is to do; or what it ordered could not be done. */
+export interface AssignmentChanged {
+  kind: "assignment_changed";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  /** D from now on. */
+  slot_distance_m: number;
+  /** d_min from now on. */
+  min_separation_m: number;
+  /** What plans turn with from now on. */
+  max_bank_deg: number;
+  /** The speed that the crew has selected; none while guidance sets the speed. */
+  selected_tas_mps: number[];
+  message: string;
+}
+
+/** The flight director's bars at one instant: what is commanded less what is flown. */
+export interface Bars {
+  /** Commanded bank less bank, smoothed over half a second: positive asks to roll right. */
+  roll_deg: number;
+  /** Commanded flight path angle less the one flown: positive asks to pull up. */
+  pitch_deg: number;
+  /** What the autopilot would go for, or does, positive right wing down. */
+  commanded_bank_deg: number;
+  /** The same of the rate of climb. */
+  commanded_climb_mps: number;
+}
+
 /** A segment flown along d = d_min at partial bank. */
 export interface BoundaryArcCard {
   /** When it begins. */
@@ -360,6 +392,30 @@ export interface ClosestOther {
   min_separation_m: number;
 }
 
+/**
+ * An aircraft is ordered to do something, by its crew or by others.
+ *
+ * A flight is flown again to the bit from its scenario, its seed and these.
+ */
+export interface CommandGiven {
+  kind: "command_given";
+  t_s: number;
+  command:
+    | LeaderHeading
+    | LeaderSpeed
+    | LeaderLevel
+    | IntentKnown
+    | LeaderData
+    | PursuerHeading
+    | PursuerBank
+    | PursuerSpeed
+    | SetSpacing
+    | SetEngagement
+    | SetAutopilot
+    | SetDirector
+    | Stick;
+}
+
 /** What the best path that was found comes too close to. */
 export interface ConflictCard {
   /** Of other traffic, or of a cell. */
@@ -382,6 +438,23 @@ export interface ContactCard {
   jump_s_per_m: number;
   /** Of other traffic that is touched. Left out for the leader. */
   ident?: string;
+}
+
+/**
+ * The crew has taken control or given it back, or switched the flight director; or could not.
+ *
+ * Guidance goes on in all cases: the autopilot follows it, or the crew does.
+ */
+export interface ControlChanged {
+  kind: "control_changed";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  /** Whether the autopilot flies now. */
+  autopilot: boolean;
+  /** Whether the flight director is on now. */
+  director: boolean;
+  message: string;
 }
 
 /**
@@ -532,6 +605,18 @@ export interface FlightStatus {
   seed: number;
   version: string;
   recorded: boolean;
+}
+
+/** How a crew flew by hand. */
+export interface FlownByHand {
+  /** For how long. */
+  time_s: number;
+  /** … of that with the flight director's bars in view … */
+  with_bars_s: number;
+  /** … and of that with the bank within 2° of the commanded one. */
+  within_bar_s: number;
+  /** Largest distance beside the path that was tracked. */
+  tube_m: number;
 }
 
 /** The flight of a plan's situation, guidance engaged at once: rolls and braking included. */
@@ -708,12 +793,26 @@ export interface GuidanceSample {
   engagement: Engagement;
   /** What guidance keeps beside d_min for what it is not certain of; 0 where all is exact. */
   margin_m: number;
+  /** Whether the autopilot flies the pursuer; if not, its crew does by hand. */
+  autopilot?: boolean;
+  /** Whether the flight director is on. */
+  director?: boolean;
+  /** Its bars; none while they are out of view: it is off, or guidance is. */
+  bars?: Bars[];
 }
 
 /** Guidance asks the autopilot to hold a heading. */
 export interface HeadingReference {
   kind: "hold_heading";
   heading_deg: number;
+}
+
+/** The leader's intent is received (`True`) or withdrawn (`False`). */
+export interface IntentKnown {
+  kind: "intent_known";
+  known: boolean;
+  /** Of the leader; empty for the first link's. */
+  ident: string;
 }
 
 /** Give the leader's intent to the pursuer, or withdraw it. */
@@ -733,11 +832,29 @@ export interface LeaderChanged {
   message: string;
 }
 
+/** The leader's reports are received (`True`) or not (`False`). */
+export interface LeaderData {
+  kind: "leader_data";
+  received: boolean;
+  /** Of the pursuer that receives them; empty for the first link's. */
+  ident: string;
+}
+
 /** Let the leader's reports be received, or not. */
 export interface LeaderDataCommand {
   command: "leader_data";
   received: boolean;
   ident?: string;
+}
+
+/** An aircraft is to turn to a heading. It drops its intent, or leaves its recording. */
+export interface LeaderHeading {
+  kind: "leader_heading";
+  /** To roll out on, clockwise from north [rad]. */
+  heading_deg: number;
+  direction: "left" | "right" | "shorter";
+  /** Of the aircraft that is to do so; empty for the first link's leader. */
+  ident: string;
 }
 
 /** Instruct the leader to turn to a heading. */
@@ -746,6 +863,17 @@ export interface LeaderHeadingCommand {
   heading_deg: number;
   direction?: Direction | null;
   ident?: string;
+}
+
+/** An aircraft is to climb or descend to a level. A recorded one leaves its recording. */
+export interface LeaderLevel {
+  kind: "leader_level";
+  /** Pressure altitude [m]. */
+  altitude_m: number;
+  /** How fast [m/s], > 0; 1,500 ft/min. */
+  rate_mps: number;
+  /** Of the aircraft that is to do so; empty for the first link's leader. */
+  ident: string;
 }
 
 /** Instruct the leader to climb or descend to a level. */
@@ -770,6 +898,14 @@ export interface LeaderRoute {
   expected_by: string;
   intent_known: boolean;
   segments: PathSegment[];
+}
+
+/** An aircraft is to fly at a true airspeed [m/s]. A recorded one leaves its recording. */
+export interface LeaderSpeed {
+  kind: "leader_speed";
+  tas_mps: number;
+  /** Of the aircraft that is to do so; empty for the first link's leader. */
+  ident: string;
 }
 
 /** Instruct the leader to fly at a speed. */
@@ -868,6 +1004,8 @@ export interface LinkResult {
    * there are no others.
    */
   least_other?: ClosestOther[];
+  /** How it was flown by hand; none where the autopilot flew all the while. */
+  by_hand?: FlownByHand[];
 }
 
 /** A round cell, at t = 0. */
@@ -1236,11 +1374,38 @@ export interface PromiseChanged {
   message: string;
 }
 
+/** The crew selects the bank that plans turn with. */
+export interface PursuerBank {
+  kind: "pursuer_bank";
+  /** φ_max [rad], > 0. */
+  bank_deg: number;
+  /** Of the pursuer whose crew does so; empty for the first link's. */
+  ident: string;
+}
+
+/** The crew selects a heading, which is flown until guidance is engaged. */
+export interface PursuerHeading {
+  kind: "pursuer_heading";
+  /** Clockwise from north [rad]. */
+  heading_deg: number;
+  /** Of the pursuer whose crew does so; empty for the first link's. */
+  ident: string;
+}
+
 /** Select a heading for the pursuer, while guidance is not engaged. */
 export interface PursuerHeadingCommand {
   command: "pursuer_heading";
   heading_deg: number;
   ident?: string;
+}
+
+/** The crew selects a speed in place of the one that guidance asks for. */
+export interface PursuerSpeed {
+  kind: "pursuer_speed";
+  /** True airspeed [m/s]; 0 leaves the speed to guidance again. */
+  tas_mps: number;
+  /** Of the pursuer whose crew does so; empty for the first link's. */
+  ident: string;
 }
 
 /** The flight at one instant. */
@@ -1316,6 +1481,30 @@ export interface SeparationLost {
   lon_deg?: number;
 }
 
+/** The crew takes control from the autopilot (`False`), or gives it back (`True`). */
+export interface SetAutopilot {
+  kind: "set_autopilot";
+  on: boolean;
+  /** Of the pursuer whose crew does so; empty for the first link's. */
+  ident: string;
+}
+
+/** The crew switches the flight director's bars on (`True`) or off. */
+export interface SetDirector {
+  kind: "set_director";
+  on: boolean;
+  /** Of the pursuer whose crew does so; empty for the first link's. */
+  ident: string;
+}
+
+/** The crew engages guidance further, or less far. */
+export interface SetEngagement {
+  kind: "set_engagement";
+  engagement: Engagement;
+  /** Of the pursuer whose crew does so; empty for the first link's. */
+  ident: string;
+}
+
 /** Designate the leader, accept what is proposed, engage it, or disconnect. */
 export interface SetEngagementCommand {
   command: "set_engagement";
@@ -1327,6 +1516,17 @@ export interface SetEngagementCommand {
 export interface SetRateCommand {
   command: "set_rate";
   rate: number;
+}
+
+/** The crew changes D, d_min or both in flight. */
+export interface SetSpacing {
+  kind: "set_spacing";
+  /** D [m]; 0 leaves it as it is. */
+  slot_distance_m: number;
+  /** d_min [m]; 0 leaves it as it is. */
+  min_separation_m: number;
+  /** Of the pursuer whose crew does so; empty for the first link's. */
+  ident: string;
 }
 
 /** Everything a plan depends on, at one instant. */
@@ -1362,6 +1562,21 @@ export interface SlotDistanceRemedy {
   time_to_converge_s: number;
   /** The same in a sentence. */
   message: string;
+}
+
+/**
+ * The crew moves the stick, which stays there until the next such order.
+ *
+ * Deflections ask for rates: neutral keeps the bank, and the rate of climb.
+ */
+export interface Stick {
+  kind: "stick";
+  /** 1 asks for the type's full rate of roll to the right, −1 to the left. */
+  roll: number;
+  /** 1 pulls up with 0.1 g, −1 pushes down with as much. */
+  pitch: number;
+  /** Of the pursuer whose crew does so; empty for the first link's. */
+  ident: string;
 }
 
 /** A piece of intent: keep the heading. */

@@ -76,6 +76,11 @@ def stop(memory: Memory, belief: Belief, to: Engagement, why: str) -> tuple[Memo
     return memory, [said, *news]
 
 
+def plan_anew(memory: Memory) -> Memory:
+    """What guidance is to do has changed: plan at once, and fly no path that was for another."""
+    return memory._replace(asked=LONG_AGO, committed=None, proposed=None, missing=None)
+
+
 def hold_heading(memory: Memory, heading: Radian, tas: MetrePerSecond) -> Memory:
     """Fly a heading that the crew selects [rad], at a speed [m/s], until guidance is engaged."""
     progress = Progress(NUMBERS["heading"], 0.0, heading, tas)

@@ -28,17 +28,17 @@ INTEGRATE_WITHIN = 2.0 * pi / 180.0
 
 
 @njit(cache=True, nogil=True)
-def aileron(body: Body, control: Control, limits: Limits, dt: float) -> tuple[float, float]:
-    """What to ask of the ailerons now.
+def commanded_bank(body: Body, control: Control, limits: Limits, dt: float) -> tuple[float, float]:
+    """The bank to fly now: what the autopilot goes for, and what the flight director shows.
 
     Args:
         body: the aircraft.
         control: what guidance wants of it.
-        limits: bank and roll rate are kept within them.
+        limits: the bank is kept within them.
         dt: since the last call [s].
 
     Returns:
-        roll rate [rad/s], positive to the right, and the heading loop's integral [rad s].
+        φ_c [rad], positive right wing down, and the heading loop's integral [rad s].
     """
     wanted, integral = control.value, 0.0
     if control.kind == HOLD_HEADING:
@@ -52,6 +52,11 @@ def aileron(body: Body, control: Control, limits: Limits, dt: float) -> tuple[fl
             integral += error * dt
         wanted = min(max(wanted, -rate_limit), rate_limit)
     bank = bank_for_turn_rate(body.tas, wanted)
-    bank = min(max(bank, -limits.max_bank), limits.max_bank)
+    return min(max(bank, -limits.max_bank), limits.max_bank), integral
+
+
+@njit(cache=True, nogil=True)
+def aileron(bank: float, body: Body, limits: Limits) -> float:
+    """What to ask of the ailerons, to fly a bank [rad]: a rate of roll [rad/s], right positive."""
     roll = ROLL_KP * (bank - body.bank) - ROLL_KD * body.roll_rate
-    return min(max(roll, -limits.max_roll_rate), limits.max_roll_rate), integral
+    return min(max(roll, -limits.max_roll_rate), limits.max_roll_rate)

@@ -1,4 +1,4 @@
-"""A whole second of all aircraft in one call: autopilots, roll, speed, wind, least separations.
+"""Steps of all aircraft in one call: autopilots and hands, roll, speed, wind, least separations.
 
 Where the wind changes, from place to place or in a gust, an aircraft keeps its speed over the
 ground: its airspeed changes by as much, along its heading, and the air carries it across.
@@ -11,6 +11,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.flight.autopilot import aileron, commanded_bank
+from relguide.kernels.flight.by_hand import STICK, follow_bar, roll_by_stick, smooth_bar
 from relguide.kernels.flight.flight_records import (
     Control,
     Drift,
@@ -19,16 +21,20 @@ from relguide.kernels.flight.flight_records import (
     limits_at,
     store,
 )
-from relguide.kernels.flight.lateral import lateral_step
+from relguide.kernels.flight.lateral import roll_step
 from relguide.kernels.flight.program import fly_program
 
 IntArray = NDArray[np.int64]
 GUIDED = 0
-"""A pilot: flies its row of `controls`."""
+"""A pilot: the autopilot flies its row of `controls`."""
 PROGRAMMED = 1
 """Flies its program, at the speed of its row of `controls`."""
 RECORDED = 2
 """Flies what stands in `trace`."""
+BY_STICK = 3
+"""Its crew flies it: the stick stands in its row of `hands`, the speed in that of `controls`."""
+BY_BAR = 4
+"""The pilot of its row of `hands` follows the roll bar to its row of `controls`."""
 BANKED = 0.05236
 """Less than 3° of bank is a correction, not a turn [rad]."""
 SWING, TRACK, SIDE, REVERSALS = 0, 1, 2, 3
@@ -37,37 +43,47 @@ to, +1 right, −1 left; and how often it changed."""
 
 
 @njit(cache=True, nogil=True)
-def fly_second(
+def fly_steps(
     states: FloatArray, limits: FloatArray, pilots: IntArray, controls: FloatArray,
     programs: FloatArray, lengths: IntArray, cursors: IntArray, helds: FloatArray,
-    winds: FloatArray, t: float, dt: float, trace: FloatArray, tallies: FloatArray,
+    hands: FloatArray, whites: FloatArray, winds: FloatArray, t: float, dt: float, begin: int,
+    end: int, trace: FloatArray, bars: FloatArray, tallies: FloatArray,
 ) -> None:  # fmt: skip
-    """Fly all aircraft from t on, step by step.
+    """Fly all aircraft on, step by step, over some of the steps of a second.
 
     Args:
         states: where they are; in the end, where they are then. shape (n, 7), as `Body`
         limits: what they can do. shape (n, 15), as `Limits`
-        pilots: who flies each: `GUIDED`, `PROGRAMMED` or `RECORDED`. shape (n,)
+        pilots: how each is flown: `GUIDED`, `PROGRAMMED`, `RECORDED`, `BY_STICK` or `BY_BAR`.
+            shape (n,)
         controls: what guidance asks of each. shape (n, 3), as `Control`
         programs: what each declared; the rest of a row is not read. shape (n, k, 3)
         lengths: how many pieces each declared. shape (n,)
         cursors: the piece each is flying, kept up to date. shape (n,)
         helds: headings before the first piece [rad]. shape (n,)
+        hands: the bars, and the hands of those that are flown by them. shape (n, `COLUMNS`)
+        whites: draws of the standard normal distribution, read for pilots that follow a bar.
+            shape (n, steps)
         winds: what moves each, now and after each step, gusts and all [m/s, east and north].
             shape (n, steps + 1, 2)
-        t: flight time [s].
+        t: flight time at the first step of the second [s].
         dt: the step [s].
+        begin: the first step to fly.
+        end: the one after the last.
         trace: where each is after each step, the present first; rows of recorded aircraft are
             given, all others written. shape (n, steps + 1, 7)
+        bars: commanded bank of guided aircraft, and their roll bar, as they come out of each step
+            [rad]; the first are those of the second before. shape (n, steps + 1, 2)
         tallies: figures so far. shape (n, 4)
     """
-    steps = trace.shape[1] - 1
     for i in range(len(states)):
         can = limits_at(limits, i)
         body = body_at(states, i)
-        store(trace[i], 0, body)
+        store(trace[i], begin, body)
+        if begin == 0:
+            bars[i, 0] = bars[i, len(bars[i]) - 1]
         program = programs[i, : lengths[i]]
-        for k in range(steps):
+        for k in range(begin, end):
             wind = Drift(winds[i, k, 0], winds[i, k, 1])
             if pilots[i] == RECORDED:
                 after = body_at(trace[i], k + 1)
@@ -77,7 +93,15 @@ def fly_second(
                 )
             else:
                 control = Control(controls[i, 0], controls[i, 1], controls[i, 2])
-                after = lateral_step(body, control, can, wind, dt)
+                bank, integral = commanded_bank(body, control, can, dt)
+                bars[i, k + 1, 0] = bank
+                bars[i, k + 1, 1] = smooth_bar(hands[i], bank - body.bank, dt)
+                roll = aileron(bank, body, can)
+                if pilots[i] == BY_BAR:
+                    follow_bar(hands[i], bank - body.bank, whites[i, k], can, t + k * dt, dt)
+                if pilots[i] != GUIDED:
+                    roll = roll_by_stick(hands[i, STICK], body, can)
+                after = roll_step(body, roll, integral, control.tas, can, wind, dt)
             east, north = winds[i, k + 1, 0] - wind.east, winds[i, k + 1, 1] - wind.north
             if (east != 0.0 or north != 0.0) and pilots[i] != RECORDED:
                 along = east * sin(after.heading) + north * cos(after.heading)

@@ -7,6 +7,9 @@ from typing import assert_never
 
 from relguide.flying.documents import (
     Alert,
+    AssignmentChanged,
+    CommandGiven,
+    ControlChanged,
     Document,
     EngagementChanged,
     FanChanged,
@@ -66,6 +69,8 @@ class History:
             case (
                 PlanProposed()
                 | EngagementChanged()
+                | ControlChanged()
+                | AssignmentChanged()
                 | PlanRefused()
                 | ModeChanged()
                 | PromiseChanged()
@@ -80,6 +85,8 @@ class History:
                 self.newest = (document,)
                 if not self._trail or document.t >= self._trail[-1][1].t + TRAIL_PERIOD:
                     self._trail.append((self._count, document))
+            case CommandGiven():
+                pass  # what it changes is said by others
             case FlightEnded():
                 self.ended = (document,)
             case _:

@@ -22,6 +22,9 @@ from relguide.flying.aircraft_documents import (
 )
 from relguide.flying.documents import (
     Alert,
+    AssignmentChanged,
+    CommandGiven,
+    ControlChanged,
     Document,
     EngagementChanged,
     FanChanged,
@@ -188,6 +191,8 @@ class FlightScene:
                     self._surroundings.warn(document)
             case PlanRefused() | PromiseChanged() | FanChanged() | Unable():
                 pass  # for the navigation display
+            case CommandGiven() | ControlChanged() | AssignmentChanged():
+                pass  # what they change is seen in the samples and plans
             case _:
                 assert_never(document)
 

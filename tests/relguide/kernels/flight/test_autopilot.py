@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.turn import turn_rate
-from relguide.kernels.flight.autopilot import INTEGRATE_WITHIN, aileron
+from relguide.kernels.flight.autopilot import INTEGRATE_WITHIN, aileron, commanded_bank
 from relguide.kernels.flight.flight_records import TURN_RATE, Body, Control
 from relguide.kernels.flight.program import roll_lead
 from relguide.units import DEG
@@ -84,18 +84,18 @@ def test_the_integral_grows_near_the_heading_and_nowhere_else() -> None:
     near, far = 0.5 * INTEGRATE_WITHIN, 1.5 * INTEGRATE_WITHIN
     for error, before, after in ((near, 0.3, 0.3 + near * STEP), (far, 0.3, far * STEP)):
         body = level()._replace(integral=before)
-        _, integral = aileron(body, hold(error / DEG), LIMITS, STEP)
+        _, integral = commanded_bank(body, hold(error / DEG), LIMITS, STEP)
         assert integral == pytest.approx(after)
-    assert aileron(level()._replace(integral=0.3), turning(5.0), LIMITS, STEP)[1] == 0.0
+    assert commanded_bank(level()._replace(integral=0.3), turning(5.0), LIMITS, STEP)[1] == 0.0
 
 
 def test_nothing_is_wound_up_at_the_limit() -> None:
     tight, wound = LIMITS._replace(max_bank=0.1 * DEG), 0.02
     away = level()._replace(integral=wound)
-    assert aileron(away, hold(1.5), tight, STEP)[1] == wound
+    assert commanded_bank(away, hold(1.5), tight, STEP)[1] == wound
     # but it unwinds: an integral that pushes away from the heading is not kept
     heavy = level()._replace(integral=50.0)
-    assert aileron(heavy, hold(-0.05), tight, STEP)[1] < 50.0
+    assert commanded_bank(heavy, hold(-0.05), tight, STEP)[1] < 50.0
 
 
 def test_a_steady_bias_is_removed() -> None:
@@ -103,7 +103,8 @@ def test_a_steady_bias_is_removed() -> None:
     body, bias = level(), 0.3 * DEG
     for _ in range(round(1500.0 / STEP)):
         felt = body._replace(bank=body.bank - bias)
-        asked, integral = aileron(felt, hold(0.0), LIMITS, STEP)
+        bank, integral = commanded_bank(felt, hold(0.0), LIMITS, STEP)
+        asked = aileron(bank, felt, LIMITS)
         bank = body.bank + asked * STEP
         turned = body.heading + turn_rate(body.tas, bank) * STEP
         body = Body(0.0, 0.0, turned, bank, 0.0, body.tas, integral)

@@ -21,6 +21,7 @@ from relguide.kernels.flight.autopilot import (
     ROLL_KD,
     ROLL_KP,
     aileron,
+    commanded_bank,
 )
 from relguide.kernels.flight.energy import full_deceleration, least_tas, most_acceleration
 from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Body, Control, Drift
@@ -69,7 +70,7 @@ def rates(state: np.ndarray, asked: float, tas: float, wind: Drift) -> list[floa
 
 @given(bodies, controls)
 def test_a_step_is_what_the_differential_equations_give(body: Body, control: Control) -> None:
-    asked, _ = aileron(body, control, LIMITS, STEP)
+    asked = aileron(commanded_bank(body, control, LIMITS, STEP)[0], body, LIMITS)
     exact = solve_ivp(
         lambda t, state: rates(state, asked, control.tas, WIND),
         (0.0, STEP), body[:6], rtol=1e-9, atol=1e-9,

@@ -16,12 +16,12 @@ from relguide.kernels.flight.program import (
     roll_lead,
     until_roll,
 )
-from relguide.kernels.flight.second import PROGRAMMED, fly_second
+from relguide.kernels.flight.second import PROGRAMMED
 from relguide.planning.aircraft import Leader
 from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG
-from tests.aloft import LIMITS, STEP, STILL, level, steady
+from tests.aloft import LIMITS, STEP, STILL, fly_second, level, steady
 
 TAS = 200.0
 STARTS = 90.0

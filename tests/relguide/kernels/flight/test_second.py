@@ -18,11 +18,10 @@ from relguide.kernels.flight.second import (
     SIDE,
     SWING,
     TRACK,
-    fly_second,
     least_between,
 )
 from relguide.units import DEG
-from tests.aloft import LIMITS, STEP, STILL, fly, hold, level, steady
+from tests.aloft import LIMITS, STEP, STILL, fly, fly_second, hold, level, steady
 
 WIND = Drift(15.0, -20.0)
 STEPS = round(1.0 / STEP)
