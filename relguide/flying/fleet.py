@@ -221,6 +221,7 @@ class Fleet:
     def begin_second(self, t: Second) -> None:
         """Settle what holds for the second from t on: recordings, altitudes and winds."""
         first = round(t / self.step)
+        self.trace[:, 0], self.bars[:, 0] = self.states, self.bars[:, -1]
         self._climb(t)
         for i, recording in self.recordings.items():
             steps = np.minimum(np.arange(first, first + self.steps + 1), len(recording.rows) - 1)

@@ -214,13 +214,12 @@ def _loss(
     """
     below = np.flatnonzero(apart < limit)
     k = int(below[0]) if len(below) else int(np.argmin(apart))
-    separation, k = float(apart[k]), min(k, len(apart) - 2)
     own = fleet.state(one.pursuer, fleet.rows.start + k)
     return SeparationLost(
         t=t + k * fleet.step,
         ident=one.names.pursuer,
         other=other,
-        separation=separation,
+        separation=float(apart[k]),
         x=own.x,
         y=own.y,
         cause=cause,

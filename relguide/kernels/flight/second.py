@@ -73,15 +73,13 @@ def fly_steps(
         trace: where each is after each step, the present first; rows of recorded aircraft are
             given, all others written. shape (n, steps + 1, 7)
         bars: commanded bank of guided aircraft, and their roll bar, as they come out of each step
-            [rad]; the first are those of the second before. shape (n, steps + 1, 2)
+            [rad]; the first are given. shape (n, steps + 1, 2)
         tallies: figures so far. shape (n, 4)
     """
     for i in range(len(states)):
         can = limits_at(limits, i)
         body = body_at(states, i)
         store(trace[i], begin, body)
-        if begin == 0:
-            bars[i, 0] = bars[i, len(bars[i]) - 1]
         program = programs[i, : lengths[i]]
         for k in range(begin, end):
             wind = Drift(winds[i, k, 0], winds[i, k, 1])
