@@ -1,4 +1,4 @@
-"""Lessons: short flights that the autopilot joins, and a pilot who follows the bars does as well."""
+"""Lessons: short flights that the autopilot joins, and so does a pilot who follows the bars."""
 
 from dataclasses import replace
 
