@@ -3,6 +3,8 @@
 import type { Signal } from "@preact/signals";
 import type {
   Alert,
+  AssignmentChanged,
+  ControlChanged,
   EngagementChanged,
   FanChanged,
   ForecastChanged,
@@ -78,6 +80,10 @@ export interface Known {
   readonly mode: ModeChanged | null;
   /** What the crew last ordered, and what became of it. */
   readonly engagement: EngagementChanged | null;
+  /** Who flies, as it was last said. */
+  readonly control: ControlChanged | null;
+  /** What guidance is to do, as the crew last changed it: D and d_min are those of `started`, too. */
+  readonly assignment: AssignmentChanged | null;
   /** How it went, once it is over. */
   readonly result: LinkResult | null;
   /** Newest first. */
