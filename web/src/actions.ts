@@ -11,6 +11,7 @@ import {
   readRecord,
 } from "./api";
 import { referencesIn, splitReference } from "./compare/references";
+import type { Crew } from "./hands/crew";
 import type { Actions, Recording, Session } from "./session";
 import type { FlightStore } from "./store/flight";
 import type { Guidance } from "./store/states";
@@ -83,6 +84,8 @@ export function createActions(
   let stream: Stream | null = null;
   let again: ReturnType<typeof setTimeout> | null = null;
   let attempt: () => void = () => undefined;
+
+  let crew: Promise<Crew> | null = null;
 
   /** How far new flights are engaged: `engaged` in the address says so from the start. */
   let engagement: keyof typeof RATE = "off";
@@ -431,6 +434,13 @@ export function createActions(
     void command(direction === undefined ? body : { ...body, direction }, `${text}…`, `${text}.`);
   }
 
+  /** What only a crew does that flies by hand, or selects for itself, is fetched when it first does. */
+  function byCrew(act: (crew: Crew) => void): void {
+    const means = { session, command, say, refusal: own.refusal, stream: () => stream };
+    crew ??= import("./hands/crew").then(({ createCrew }) => createCrew(means));
+    void crew.then(act);
+  }
+
   return {
     open,
     start: (scenario) => void begin(requestOf(scenario)),
@@ -465,6 +475,11 @@ export function createActions(
       const body = { command: "pursuer_heading", heading_deg: wrap360(heading) } as const;
       void command(body, `${text}…`, `${text}.`);
     },
+    setAutopilot: (on) => byCrew((crew) => crew.setAutopilot(on)),
+    setDirector: (on) => byCrew((crew) => crew.setDirector(on)),
+    selectBank: (bank) => byCrew((crew) => crew.selectBank(bank)),
+    selectSpeed: (tas) => byCrew((crew) => crew.selectSpeed(tas)),
+    setSpacing: (spacing) => byCrew((crew) => crew.setSpacing(spacing)),
     setLeaderData(received) {
       const text = received ? "Leader's reports received" : "Leader's reports lost";
       void command({ command: "leader_data", received }, `${text}…`, `${text}.`);
