@@ -17,6 +17,7 @@ import type {
   PlanUnavailable,
   PromiseChanged,
   SeparationLost,
+  Tick,
   Unable,
 } from "../wire";
 import type { PairCard, PairSample } from "./pair";
@@ -134,6 +135,8 @@ export interface Flight {
   readonly id: Signal<string | null>;
   /** The instant whose picture is drawn. */
   readonly moment: Signal<Moment>;
+  /** The newest tick, as soon as it is there, and when that was [wall ms]: what is flown by hand shows it. */
+  readonly heard: Signal<{ readonly tick: Tick; readonly wall: number } | null>;
   /** The same for numbers to be read: it changes five times a second. */
   readonly read: Signal<Moment>;
   /** Flight time since the picture was drawn [s]: what moves is carried on by it until the next one. */
