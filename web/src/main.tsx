@@ -32,6 +32,7 @@ const receive = drawPictures(store, session);
 const actions = createActions(session, { ...store, receive });
 keepPreferences(session);
 void import("./sound").then(({ soundAlerts }) => soundAlerts(session));
+void import("./debrief/watch").then(({ openDebriefs }) => openDebriefs(session, actions));
 followRange(session);
 followInstant(session);
 followPlanners(session.planners, store.flight);
