@@ -47,6 +47,7 @@ function opened(rate = 1): Page {
   const { flight } = session;
   const now = pairAt(0);
   amend(flight, { started: pairCard(STARTED), sample: now, now });
+  flight.heard.value = { tick: tick(0, [sample(0)]), wall: 0 };
   flight.id.value = "one";
   flight.span.value = { first: 0, last: 1 };
   flight.connection.value = "live";
