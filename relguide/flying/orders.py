@@ -265,6 +265,8 @@ def _settle_heading(order: LeaderHeading | PursuerHeading) -> None:
     object.__setattr__(order, "heading", expect_within("heading", order.heading, *HEADING))
 
 
+NewTask = PursuerBank | PursuerSpeed | SetSpacing
+"""What a crew asks of its guidance."""
 LeaderCommand = LeaderHeading | LeaderSpeed | LeaderLevel | IntentKnown
 """What a leader does, or any other aircraft that is not guided."""
 CrewCommand = (
