@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-99df654b2baa";
+export const PROTOCOL = "relguide-91435290daed";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -35,7 +35,8 @@ export type PlanReason =
   | "intent_received"
   | "intent_withdrawn"
   | "braking"
-  | "traffic";
+  | "traffic"
+  | "assignment_changed";
 
 /** What is new about the leader. */
 export type LeaderChange =
