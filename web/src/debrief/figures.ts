@@ -1,6 +1,5 @@
 /** A flight in figures, each with its unit; of a flight that the autopilot flew only those that make sense. */
 
-import { figuresOf as counted } from "../compare/figures";
 import type { History } from "../store/history";
 import { GRAZE } from "../store/states";
 import { formatClock, formatMiles } from "../units";
@@ -35,7 +34,9 @@ export function figuresOf(
     fastest.joins === null || joined === null
       ? ""
       : `${seconds(joined - fastest.joins)} over the fastest path`;
-  const replans = counted(history)?.replans ?? 0;
+  const replans = history.events.filter(
+    (each) => each.kind === "plan_changed" && each.reason !== "engaged",
+  ).length;
   return [
     figure("Joined at", joined === null ? "not joined" : formatClock(joined), over),
     figure("Lost by flying", seconds(losses.flown), `since ${formatClock(from)}`),

@@ -35,12 +35,7 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
       >
         Fig. 6a beside 6b
       </button>
-      <button
-        type="button"
-        title="How the flight went, and where time was lost"
-        aria-pressed={session.debriefOpen.value}
-        onClick={set(session.debriefOpen, !session.debriefOpen.value)}
-      >
+      <button type="button" onClick={set(session.debriefOpen, true)}>
         Debrief
       </button>
       <FeedbackLine feedback={feedback.value} />
