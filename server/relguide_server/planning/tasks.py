@@ -33,7 +33,7 @@ from relguide.learn.words.area_words import area_words
 from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.maps.isochrones import Grid, isochrones, times_around
 from relguide.planning.deadline import LOADING, load_kernels
-from relguide.planning.outcome import Planner
+from relguide.planning.outcome import Planner, Reason
 from relguide.planning.plan import plan_at_once as exact_plan_at_once
 from relguide.planning.situation import Situation
 from relguide.units import Second
@@ -126,7 +126,7 @@ def plan_body(
         least = LEAST_WITH_FLIGHT
     deadline = max(min(end - monotonic(), most), least)
     answered = plan_situation(situation, anchor, planner, include, deadline, form)
-    cut = answered.seconds > CUT * deadline
+    cut = answered.reason == Reason.DEADLINE.value or answered.seconds > CUT * deadline
     return replace(answered, processor=thread_time() - began, cut=cut)
 
 
