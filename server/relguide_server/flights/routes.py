@@ -1,6 +1,7 @@
 """Routes of flights: start one, watch it, command it, end it."""
 
 import asyncio
+from functools import partial
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Request, WebSocket
@@ -41,10 +42,11 @@ from relguide.flying.orders import (
     order_fault,
 )
 from relguide_server.flights.catalogue import CatalogueOf
+from relguide_server.flights.control import MOST_RATE, TOO_FAST
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
-from relguide_server.http.access import expect_owner, owner_of
+from relguide_server.http.access import expect_owner, may_command, owner_of
 from relguide_server.http.bodies import (
     address_of,
     json_answer,
@@ -238,7 +240,10 @@ async def command_flight(
 
 @router.websocket("/flights/{flight_id}/stream")
 async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
-    """Ticks of a flight; the sub-protocol says for which form of them the client was built."""
+    """Ticks of a flight; the sub-protocol says for which form of them the client was built.
+
+    A client that may command the flight may fly it by hand over this socket as well.
+    """
     offered = websocket.scope["subprotocols"]
     spoken = [name for name in offered if name in (PROTOCOL, STREAM)]
     if not spoken:
@@ -256,8 +261,9 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
         await websocket.close(TOO_MANY, "As many watch this flight as may: try again later.")
         return
     client = flight.join()
+    hear = partial(flight.hear, client, may_command=may_command(websocket, flight.label.owner))
     try:
-        await client.pump(websocket)
+        await client.pump(websocket, hear)
     finally:
         flight.leave(client)
 
@@ -293,6 +299,8 @@ def _command(flight: LiveFlight, command: Command) -> None:
         case PauseCommand():
             flight.pace.pause()
         case SetRateCommand(rate=rate):
+            if flight.control.taken and rate > MOST_RATE:
+                raise Refusal(409, TOO_FAST.format(rate=rate))
             flight.pace.set_rate(rate)
         case LeaderHeadingCommand():
             _order(flight, _leader_heading(command))
