@@ -35,8 +35,8 @@ def test_an_order_may_name_who_is_to_do_so() -> None:
     assert order == Order(9.0, LeaderSpeed(tas=210.0, ident="BAW12"))
     world = world_of(fig_6(intent_known=True))
     with pytest.raises(ValueError, match=r"^The order at 9 s: There is no aircraft 'BAW12' to "):
-        expect_flying((order,), world)
-    expect_flying((Order(9.0, LeaderSpeed(tas=210.0, ident="LEADER")),), world)
+        expect_flying((order,), (), world)
+    expect_flying((Order(9.0, LeaderSpeed(tas=210.0, ident="LEADER")),), (), world)
 
 
 def test_each_is_given_once_at_its_time() -> None:
@@ -57,11 +57,11 @@ def test_each_is_given_once_at_its_time() -> None:
         (b"\xff", "This is not UTF-8 text"),
         (
             b'{"t_s": 400}',
-            "An order has one of leader_heading_deg, leader_tas_mps, leader_level_m or inte",
+            "This must have one of leader_heading_deg, leader_tas_mps, leader_level_m, inte",
         ),
         (
             b'{"t_s": 400, "leader_tas_mps": 200, "intent_known": true}',
-            "An order has one of leader_heading_deg, leader_tas_mps, leader_level_m or inte",
+            "This must have one of leader_heading_deg, leader_tas_mps, leader_level_m, inte",
         ),
         (b'{"leader_tas_mps": 200}', "t_s: is missing."),
         (b'{"t_s": 59, "intent_known": true}', "t_s: must be at least 60, that of the order befo"),
