@@ -22,6 +22,7 @@ from relguide.contract.messages import (
 )
 from relguide.contract.order_lines import OrderLine
 from relguide.contract.typescript import typescript
+from relguide.contract.upstream import ControlAnswer, Upstream
 from relguide.flying.aircraft_documents import AlertLevel, AlertState, Spacing
 from relguide.flying.documents import (
     AlertSubject,
@@ -74,9 +75,11 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "CrewOrderLine": (CrewOrderLine, "What a crew orders, and when."),
     "OrderLine": (OrderLine, "An order at a flight time."),
     "Command": (Command, "A command to a flight."),
+    "Upstream": (Upstream, "What a client may send up a flight's stream."),
 }
 _ROOTS = (
-    Tick, SituationBody, ScenarioList, FlightList, AreaRequest, AreaAnswer, PlannerComparison,
+    Tick, ControlAnswer, SituationBody, ScenarioList, FlightList, AreaRequest, AreaAnswer,
+    PlannerComparison,
 )  # fmt: skip
 
 

@@ -112,7 +112,7 @@ class Fleet:
         self.limits = np.zeros((count, len(Limits._fields)))
         self.pilots = np.zeros(count, dtype=np.int64)
         self.controls = np.zeros((count, 3))
-        self.hands = np.zeros((count, by_hand.COLUMNS))
+        self.hands = np.zeros((count, by_hand.columns(step)))
         self.whites = np.zeros((count, steps))
         self.pitches = np.zeros(count)
         """Of the sticks, −1 … 1, pulled positive."""
@@ -324,9 +324,13 @@ class Fleet:
         bank, bar = self.bars[i, -1 if k is None else k].tolist()
         return bank, bar
 
-    def react(self, i: int, at: Second) -> None:
-        """Have the pilot of an aircraft answer the bar from then on, flight time [s]."""
-        self.hands[i, by_hand.REACTS_AT] = max(self.hands[i, by_hand.REACTS_AT], at)
+    def react(self, i: int, t: Second, after: Second) -> None:
+        """Have the pilot of an aircraft answer the bar a while after t, if it looks at it now.
+
+        What comes while it is reading puts nothing off.
+        """
+        if self.hands[i, by_hand.REACTS_AT] <= t:
+            self.hands[i, by_hand.REACTS_AT] = t + after
 
     def _limit(self, i: int, altitude: Metre) -> None:
         """What a guided aircraft can do at another level, in truth and as it is believed."""
