@@ -45,7 +45,9 @@ def main(tries: int) -> None:
         if found["engaged"] is not None:
             waits[kind].append(found["engaged"])
     for kind, took in waits.items():
-        print({what: tally[kind, what] for what in ("tries", "engaged", "offered again", "refused")})
+        print(
+            {what: tally[kind, what] for what in ("tries", "engaged", "offered again", "refused")}
+        )
         print(kind, "engaged after", np.percentile(took, (50, 100)) if took else "never")
 
 
