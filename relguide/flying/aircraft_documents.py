@@ -213,7 +213,7 @@ class FlownByHand:
     within_bar: Second
     """… and of that with the bank within 2° of the commanded one."""
     tube: Metre
-    """Largest distance beside the path that was tracked."""
+    """Largest distance beside the path of the plan that was flown."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -615,7 +615,7 @@ export interface FlownByHand {
   with_bars_s: number;
   /** … and of that with the bank within 2° of the commanded one. */
   within_bar_s: number;
-  /** Largest distance beside the path that was tracked. */
+  /** Largest distance beside the path of the plan that was flown. */
   tube_m: number;
 }
 
