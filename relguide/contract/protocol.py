@@ -20,6 +20,7 @@ from relguide.contract.messages import (
     Tick,
 )
 from relguide.contract.typescript import typescript
+from relguide.contract.upstream import ControlAnswer, Upstream
 from relguide.flying.aircraft_documents import AlertLevel, AlertState, Spacing
 from relguide.flying.documents import (
     AlertSubject,
@@ -70,9 +71,11 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "IntentPiece": (Piece, "A piece of the leader's intent."),
     "FlightRequest": (FlightRequest, "A request for a new flight."),
     "Command": (Command, "A command to a flight."),
+    "Upstream": (Upstream, "What a client may send up a flight's stream."),
 }
 _ROOTS = (
-    Tick, SituationBody, ScenarioList, FlightList, AreaRequest, AreaAnswer, PlannerComparison,
+    Tick, ControlAnswer, SituationBody, ScenarioList, FlightList, AreaRequest, AreaAnswer,
+    PlannerComparison,
 )  # fmt: skip
 
 

@@ -43,6 +43,7 @@ const Charts = late(
 const ComparePanel = late(async () => (await import("./compare/panel")).ComparePanel, "");
 const ExportDialog = late(async () => (await import("./panels/export-dialog")).ExportDialog, "");
 const Captions = late(async () => (await import("./panels/captions")).Captions, "");
+const StickPad = late(async () => (await import("./hands/pad")).StickPad, "");
 const Records = late(async () => (await import("./panels/records")).Records, "");
 
 export function Cockpit(props: { session: Session; actions: Actions }) {
@@ -127,6 +128,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
           </section>
         )}
       </main>
+      {session.hands.value !== null && <StickPad session={session} actions={actions} />}
       {!isMap && <Timeline session={session} actions={actions} />}
       {session.helpOpen.value && <Help session={session} />}
       {session.exportOpen.value && <ExportDialog session={session} />}

@@ -71,6 +71,7 @@ export function drawPictures(
 
   request();
   return (tick, wall) => {
+    flight.heard.value = { tick, wall };
     arrived.push({ tick, wall });
     if (timer === null || !isNews(tick)) return;
     clearTimeout(timer);

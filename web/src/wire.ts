@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-4390b71475b5";
+export const PROTOCOL = "relguide-91435290daed";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -35,7 +35,8 @@ export type PlanReason =
   | "intent_received"
   | "intent_withdrawn"
   | "braking"
-  | "traffic";
+  | "traffic"
+  | "assignment_changed";
 
 /** What is new about the leader. */
 export type LeaderChange =
@@ -145,6 +146,9 @@ export type Command =
   | LeaderDataCommand
   | PursuerHeadingCommand
   | SetEngagementCommand;
+
+/** What a client may send up a flight's stream. */
+export type Upstream = TakeControl | StickMove | GiveBack;
 
 /** The air as it is, or as it is believed to be. */
 export interface AirBody {
@@ -438,6 +442,13 @@ export interface ContactCard {
   jump_s_per_m: number;
   /** Of other traffic that is touched. Left out for the leader. */
   ident?: string;
+}
+
+/** A frame to the one client that has asked for control, or has had it. */
+export interface ControlAnswer {
+  kind: "control";
+  yours: boolean;
+  message: string;
 }
 
 /**
@@ -759,6 +770,11 @@ export interface GeodeticTraffic {
   altitude_m?: number | null;
   intent?: IntentPiece[];
   min_separation_m?: number | null;
+}
+
+/** Give control back to the autopilot. */
+export interface GiveBack {
+  kind: "give_back";
 }
 
 /** What the guidance of one pursuer does at one instant, and how it stands to its leader. */
@@ -1579,6 +1595,18 @@ export interface Stick {
   ident: string;
 }
 
+/**
+ * Move the stick.
+ *
+ * Sent as it moves, 20 times a second at most, and each 0.2 s while it is held out of neutral:
+ * after 0.5 s without one the stick is neutral.
+ */
+export interface StickMove {
+  kind: "stick";
+  roll: number;
+  pitch?: number;
+}
+
 /** A piece of intent: keep the heading. */
 export interface StraightPiece {
   straight_s: number;
@@ -1607,6 +1635,13 @@ export interface SurveillanceBody {
   interval_s?: number;
   loss_share?: number;
   burst_s?: number;
+}
+
+/** Take a pursuer's control from the autopilot, to fly it by hand. */
+export interface TakeControl {
+  kind: "take_control";
+  director?: boolean;
+  ident?: string;
 }
 
 /** A frame of the stream: what happened in a flight since the last one. */

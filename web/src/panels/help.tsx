@@ -4,6 +4,7 @@ import type { Signal } from "@preact/signals";
 import { set, useFocus } from "../parts";
 import type { Session } from "../session";
 import { ELEMENTS } from "../words";
+import "./dialogs.css";
 
 const KEYS: readonly (readonly [string, string])[] = [
   ["Space", "play or pause"],

@@ -70,8 +70,8 @@ export function createHistory(): History {
       .filter((each) => each !== null);
   }
 
-  function minSeparation(): number {
-    return foldTo(events.length).started?.min_separation_m ?? 0;
+  function minSeparationAt(t: number): number {
+    return knownAt(t).started?.min_separation_m ?? 0;
   }
 
   function trailAt(t: number): Seen["trail"] {
@@ -105,9 +105,9 @@ export function createHistory(): History {
       events.push(...documents.filter(({ kind }) => kind !== "sample"));
       const ended = documents.some(({ kind }) => kind === "flight_ended");
       const samples = samplesOf(documents);
-      for (const sample of samples) knots.take(sample, minSeparation());
+      for (const sample of samples) knots.take(sample, minSeparationAt(sample.t_s));
       const last = samples.at(-1);
-      if (ended && last !== undefined) knots.merge([last], minSeparation());
+      if (ended && last !== undefined) knots.merge([last], minSeparationAt);
     },
     merge(documents) {
       const come = documents.filter(({ kind }) => kind !== "sample");
@@ -115,7 +115,7 @@ export function createHistory(): History {
       events = inOrder([...come, ...events.filter((each) => !known.has(JSON.stringify(each)))]);
       checkpoints = [NOTHING_KNOWN];
       reached = { count: 0, known: NOTHING_KNOWN };
-      knots.merge(samplesOf(documents), minSeparation());
+      knots.merge(samplesOf(documents), minSeparationAt);
       trailed = null;
     },
     knownAt,
