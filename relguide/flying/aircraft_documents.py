@@ -164,7 +164,8 @@ class GuidanceSample:
     engagement: Engagement = "engaged"
     """How far the crew has engaged it."""
     margin: Metre = 0.0
-    """What guidance keeps beside d_min for what it is not certain of; 0 where all is exact."""
+    """What guidance keeps beside d_min for what it is not certain of, and while the crew flies by
+    hand; 0 where all is exact."""
     autopilot: bool = field(default=True, metadata=LEFT_OUT)
     """Whether the autopilot flies the pursuer; if not, its crew does by hand."""
     director: bool = field(default=False, metadata=LEFT_OUT)

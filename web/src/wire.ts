@@ -807,7 +807,10 @@ export interface GuidanceSample {
   leader_age_s: number;
   /** How far the crew has engaged it. */
   engagement: Engagement;
-  /** What guidance keeps beside d_min for what it is not certain of; 0 where all is exact. */
+  /**
+   * What guidance keeps beside d_min for what it is not certain of, and while the crew flies by
+   * hand; 0 where all is exact.
+   */
   margin_m: number;
   /** Whether the autopilot flies the pursuer; if not, its crew does by hand. */
   autopilot?: boolean;
