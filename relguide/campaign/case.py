@@ -73,6 +73,8 @@ class Case:
             lines.append(f"guidance = {self.guidance!r}")
         if scenario.by_hand is not None:
             lines.append(f"by_hand = {scenario.by_hand!r}")
+        if self.settings != DEFAULT:
+            lines.append(f"settings = {self.settings!r}")
         if self.factors:
             lines.append(f"factors = {dict(self.factors)!r}")
         if self.wind_error != CALM or self.isa_error:
