@@ -716,7 +716,7 @@ export interface FlownByHand {
   with_bars_s: number;
   /** … and of that with the bank within 2° of the commanded one. */
   within_bar_s: number;
-  /** Largest distance beside the path that was tracked. */
+  /** Largest distance beside the path of the plan that was flown. */
   tube_m: number;
 }
 
@@ -897,7 +897,10 @@ export interface GuidanceSample {
   leader_age_s: number;
   /** How far the crew has engaged it. */
   engagement: Engagement;
-  /** What guidance keeps beside d_min for what it is not certain of; 0 where all is exact. */
+  /**
+   * What guidance keeps beside d_min for what it is not certain of, and while the crew flies by
+   * hand; 0 where all is exact.
+   */
   margin_m: number;
   /** Whether the autopilot flies the pursuer; if not, its crew does by hand. */
   autopilot?: boolean;
