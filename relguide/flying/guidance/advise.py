@@ -139,11 +139,8 @@ def _try_to_plan(
         clear = min(assignment.min_separation + settings.escape_room, assignment.aim)
         if not rested or belief.counted_separation < clear:
             return memory, []
-    # Of two ways round that are as fast, the one that the crew accepted is flown.
-    like = None if memory.proposed is None else memory.proposed.path
-    found = propose(belief, assignment, None, planner, like=like, stay=settings.shown_time)
-    memory = memory._replace(asked=t, proposed=None)
-    memory, events = count_refusal(memory, found)
+    found = propose(belief, assignment, None, planner)
+    memory, events = count_refusal(memory._replace(asked=t), found)
     if isinstance(found, NoProposal):
         return say_no_plan(memory, belief, assignment, found.answer, events)
     reason: PlanReason = "engaged" if memory.announced is None else "resumed"
