@@ -105,6 +105,12 @@ def hold_heading(memory: Memory, heading: Radian, tas: MetrePerSecond) -> Memory
     return memory._replace(progress=progress, forecast=None, proposed=None)
 
 
+def refused_heading(memory: Memory) -> EngagementChange:
+    """Why a heading is not flown while guidance is engaged."""
+    now, message = memory.engagement, "Relative guidance flies: disconnect it to select a heading."
+    return EngagementChange(engagement=now, previous=now, message=message)
+
+
 def give_up_old_data(
     memory: Memory, belief: Belief, assignment: Assignment
 ) -> tuple[Memory, list[Event]]:
