@@ -11,9 +11,22 @@ from hypothesis import strategies as st
 
 from relguide.contract.wire import COMPASS, wire_fields
 from relguide.flying.documents import Alert, Document, ForecastChanged, SeparationLost, Unable
+from relguide.flying.orders import Command
 from relguide.flying.plan_documents import PathPoint
 
 DOCUMENT_TYPES: tuple[type[Any], ...] = get_args(Document)
+ORDERED = {
+    "heading": (-6.0, 12.0),
+    "tas": (30.0, 400.0),
+    "altitude": (-500.0, 20_000.0),
+    "rate": (0.5, 60.0),
+    "bank": (0.02, 1.04),
+    "slot_distance": (10_000.0, 200_000.0),
+    "min_separation": (0.0, 10_000.0),
+    "roll": (-1.0, 1.0),
+    "pitch": (-1.0, 1.0),
+}
+"""What orders may ask, by the names of their fields."""
 
 
 def documents() -> st.SearchStrategy[Any]:
@@ -22,10 +35,26 @@ def documents() -> st.SearchStrategy[Any]:
 
 
 def document_of(document_type: type[Any]) -> st.SearchStrategy[Any]:
+    if document_type in get_args(Command):
+        return order_of(document_type)
     return st.builds(
         document_type,
         **{f.name: _values(f.name, f.annotation) for f in wire_fields(document_type)},
     )
+
+
+def order_of(order_type: type[Any]) -> st.SearchStrategy[Any]:
+    """Any order of a kind."""
+    values = {
+        f.name: st.floats(*ORDERED[f.name]) if f.name in ORDERED else _values(f.name, f.annotation)
+        for f in wire_fields(order_type)
+    }
+    return st.builds(order_type, **values)
+
+
+def orders() -> st.SearchStrategy[Any]:
+    """Any order to an aircraft of a flight."""
+    return reduce(or_, map(order_of, get_args(Command)))
 
 
 def _values(name: str, annotation: Any) -> st.SearchStrategy[Any]:

@@ -121,6 +121,8 @@ def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
             "fallbacks": f"{figures['fallbacks']}",
             "flown": f"{figures['track_nm']:.1f} NM over the ground",
         }
+    if "by_hand" in figures:
+        rows["by hand"] = _by_hand(figures["by_hand"])
     if "wall_s" in figures:
         speed = figures["simulated_s"] / max(figures["wall_s"], 1e-9)
         rows["computed in"] = f"{figures['wall_s']:.2f} s, {speed:,.0f} times as fast as it flies"
@@ -131,6 +133,12 @@ def _over_optimum(seconds: float | None) -> str:
     if seconds is None:
         return "not known: no plan from the start reaches the slot"
     return f"{abs(seconds):.0f} s {'sooner' if seconds < 0.0 else 'later'}"
+
+
+def _by_hand(figures: Mapping[str, Any]) -> str:
+    shown, within = figures["with_bars_s"], figures["within_bar_s"]
+    bars = f"the bar within 2° for {within / shown:.0%}" if shown > 0.0 else "without bars"
+    return f"{clock(figures['time_s'])}, {bars}, within {miles(figures['tube_m'])} of the path"
 
 
 def _planners(plans_by: Mapping[str, int]) -> str:

@@ -9,16 +9,16 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from relguide.cli.order_files import read_ordered
 from relguide.cli.output import DONE, FAILED, add_form, for_people, say, write_json
 from relguide.cli.shared_options import add_planner, seconds
-from relguide.cli.situation_file import open_input, read_flight
+from relguide.cli.situation_file import read_flight
 from relguide.flying.guidances import GUIDANCES
 from relguide.learn.planners import make_planner
 from relguide.planning.inputs import expect_within
 from relguide.planning.limits import SPACING
 
 if TYPE_CHECKING:
-    from relguide.contract.orders import Order
     from relguide.flying.flight import Scenario
     from relguide.flying.tracks import RecordedTrack
 
@@ -40,6 +40,9 @@ EXAMPLES = """
         {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
         {"t_s": 950, "leader_tas_mps": 100}
     with "ident": "NAME" in it, another than the leader does so
+    relguide fly fig_6b --orders a.jsonl         flown again by the orders that a recording holds
+    relguide fly fig_6b --crew examples/crew.jsonl   engaged by a crew that reacts
+    relguide fly fig_6b --director               by hand: a pilot model follows the bars
     """
 MAX_FOLLOWING = 36_000.0
 """Longest time to follow [s]."""
@@ -77,14 +80,25 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--seed",
         metavar="N",
         type=_seed,
-        default=0,
-        help="0, the default, flies the type as its data say; others draw its constants by chance",
+        help="0, the default, flies the type as its data say; others draw its constants by chance; "
+        "a flight that is flown again has the one of its recording",
     )
     parser.add_argument(
         "--orders",
         metavar="FILE",
-        help="what the leader, or the aircraft named, is ordered to do: JSON lines in order of "
-        "time; -: standard input",
+        help="what the leader, the crew or the aircraft named is to do: JSON lines in order of "
+        "time, -: standard input; or a recording, whose flight is flown again",
+    )
+    parser.add_argument(
+        "--crew",
+        metavar="FILE",
+        help="what the crew orders, JSON lines that may wait for what is said of the flight; "
+        "guidance is off at the start, unless the first line engages it at 0 s",
+    )
+    parser.add_argument(
+        "--director",
+        action="store_true",
+        help="a pilot model flies the pursuer by hand, along the flight director's bars",
     )
     parser.add_argument(
         "--after-joining",
@@ -125,25 +139,32 @@ def run(chosen: argparse.Namespace) -> int:
     from relguide.flying.fans import all_fans, no_fans
     from relguide.flying.flight import fly, world_of
     from relguide.flying.guidance.settings import DEFAULT, load_settings
+    from relguide.flying.pilot_model import PilotModel
+    from relguide.flying.scripted_crew import with_crew
     from relguide.planning.progress import show_progress
 
     if chosen.sample_rate is not None and chosen.record is None:
         raise ValueError("--sample-rate is for a recording: add --record FILE.")
-    orders = _orders(chosen)
-    scenario = _scenario(chosen.scenario, chosen.seed, chosen.callsign)
+    orders, script, engagement, seed = read_ordered(
+        chosen.scenario, chosen.orders, chosen.crew, chosen.seed
+    )
+    scenario = _scenario(chosen.scenario, seed, chosen.callsign)
     scenario = _following_for(scenario, chosen.after_joining)
     if chosen.spacing is not None:
         scenario = replace(scenario, spacing=chosen.spacing)
     if chosen.gusts is not None:
         scenario = replace(scenario, gusts=chosen.gusts)
-    expect_flying(orders, world_of(scenario))
+    if chosen.director:
+        scenario = replace(scenario, by_hand=PilotModel())
+    expect_flying(orders, script, world_of(scenario))
     settings = DEFAULT if chosen.settings is None else load_settings(chosen.settings)
     planner = make_planner(chosen.planner)
     flown = partial(
         fly,
         scenario,
         planner,
-        seed=chosen.seed,
+        seed=seed,
+        engagement=engagement,
         settings=settings,
         guidance=chosen.guidance,
         planner_name=chosen.planner,
@@ -151,11 +172,10 @@ def run(chosen: argparse.Namespace) -> int:
     )
     for _ in islice(flown(sample_period=1.0), LOADING):
         pass
-    commands = commands_of(orders)
     started = perf_counter()
     # unrecorded, one a second is enough for the progress bar
     rate = chosen.sample_rate or 1.0
-    documents = flown(commands=commands, sample_period=1.0 / rate)
+    documents = with_crew(script, partial(flown, sample_period=1.0 / rate), commands_of(orders))
     if chosen.record is not None:
         documents = record(documents, chosen.record, sample_rate=rate)
     flight = summarize(
@@ -185,17 +205,6 @@ def run(chosen: argparse.Namespace) -> int:
     for sentence in failed:
         say(sentence)
     return FAILED if failed else DONE
-
-
-def _orders(chosen: argparse.Namespace) -> "tuple[Order, ...]":
-    from relguide.contract.orders import read_orders
-
-    if chosen.orders is None:
-        return ()
-    if chosen.orders == chosen.scenario == "-":
-        raise ValueError("Standard input can be the situation or the orders, not both.")
-    with open_input(chosen.orders) as stream:
-        return read_orders(stream, "standard input" if chosen.orders == "-" else chosen.orders)
 
 
 def _following_for(scenario: "Scenario", after_joining: float) -> "Scenario":

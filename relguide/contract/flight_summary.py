@@ -196,6 +196,7 @@ def _figures_of(result: LinkResult, flight: FlightSummary, ended: FlightEnded) -
             if isinstance(unable, Unable)
         ],
         **({"least_other": to_wire(result.least_other[0])} if result.least_other else {}),
+        **({"by_hand": to_wire(result.by_hand[0])} if result.by_hand else {}),
     }
 
 

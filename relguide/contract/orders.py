@@ -2,111 +2,48 @@
 
 {"t_s": 60, "intent_known": false}
 {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
-{"t_s": 950, "leader_tas_mps": 100}
-{"t_s": 990, "leader_level_m": 8000, "rate_mps": 8}
 {"t_s": 950, "leader_tas_mps": 210, "ident": "BAW12"}
+{"t_s": 990, "autopilot": false}
+
+A crew's script has the orders of crews only, and they may wait for what is said of the flight:
+
+{"on": "proposed", "after_s": 5, "engagement": "armed"}
+
+A recording holds all orders that were given in its flight, which is flown again by them.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import IO, Annotated, NamedTuple
+from typing import IO, NamedTuple, TypeVar
 
-from pydantic import Field
+from pydantic import BaseModel, RootModel
 
-from relguide.contract.compass import heading_of
-from relguide.contract.intent_bodies import ClimbRate
-from relguide.contract.other_bodies import Tas
-from relguide.contract.places import Altitude
-from relguide.contract.refusal import ContractError, Strict, loads, parse
-from relguide.flying.leaders.declared import TurnChoice
-from relguide.flying.orders import (
-    Command,
-    IntentKnown,
-    LeaderHeading,
-    LeaderLevel,
-    LeaderSpeed,
-    order_fault,
+from relguide.contract.crew_lines import CrewLine, CrewOrderLine
+from relguide.contract.order_lines import LeaderLine, OrderLine
+from relguide.contract.refusal import ContractError, loads, parse
+from relguide.flying.documents import (
+    CommandGiven,
+    Document,
+    EngagementChanged,
+    FlightStarted,
+    Sample,
 )
+from relguide.flying.engagement import Engagement
+from relguide.flying.orders import Command, SetEngagement, order_fault
+from relguide.flying.scripted_crew import CrewOrder
 from relguide.flying.world import World
 from relguide.units import Second
 
 MAX_LINE = 10_000
 """Longest line that is read [bytes]; an order has some 70."""
-
-Ident = Annotated[str, Field(max_length=100)]
-OrderTime = Annotated[float, Field(ge=0.0)]
+M = TypeVar("M", bound=BaseModel)
 
 
-class HeadingOrder(Strict):
-    """The leader is to turn to a heading."""
-
-    t_s: OrderTime
-    """Flight time at which it is given."""
-    leader_heading_deg: float
-    """Clockwise from true north."""
-    direction: TurnChoice = "shorter"
-    """Which way round."""
-    ident: Ident = ""
-    """Who is to do so; empty for the first link's leader."""
-
-    def command(self) -> Command:
-        """What the flight is given."""
-        heading = heading_of(self.leader_heading_deg)
-        return LeaderHeading(heading=heading, direction=self.direction, ident=self.ident)
+class OrderBody(RootModel[OrderLine]):
+    """A line of orders."""
 
 
-class SpeedOrder(Strict):
-    """The leader is to fly at a speed."""
-
-    t_s: OrderTime
-    """Flight time at which it is given."""
-    leader_tas_mps: Tas
-    """True airspeed."""
-    ident: Ident = ""
-    """Who is to do so; empty for the first link's leader."""
-
-    def command(self) -> Command:
-        """What the flight is given."""
-        return LeaderSpeed(tas=self.leader_tas_mps, ident=self.ident)
-
-
-class LevelOrder(Strict):
-    """The leader is to climb or descend."""
-
-    t_s: OrderTime
-    """Flight time at which it is given."""
-    leader_level_m: Altitude
-    """Pressure altitude to level off at."""
-    rate_mps: ClimbRate = 7.62
-    """How fast; 1,500 ft/min if left out."""
-    ident: Ident = ""
-    """Who is to do so; empty for the first link's leader."""
-
-    def command(self) -> Command:
-        """What the flight is given."""
-        return LeaderLevel(altitude=self.leader_level_m, rate=self.rate_mps, ident=self.ident)
-
-
-class IntentOrder(Strict):
-    """The leader's intent is given to the pursuer, or withdrawn."""
-
-    t_s: OrderTime
-    """Flight time at which that happens."""
-    intent_known: bool
-    ident: Ident = ""
-    """Whose it is; empty for the first link's leader."""
-
-    def command(self) -> Command:
-        """What the flight is given."""
-        return IntentKnown(known=self.intent_known, ident=self.ident)
-
-
-_MODELS: dict[str, type[HeadingOrder] | type[SpeedOrder] | type[LevelOrder] | type[IntentOrder]] = {
-    "leader_heading_deg": HeadingOrder,
-    "leader_tas_mps": SpeedOrder,
-    "leader_level_m": LevelOrder,
-    "intent_known": IntentOrder,
-}
-"""The field that only this kind of order has."""
+class CrewOrderBody(RootModel[CrewOrderLine]):
+    """A line of a crew's script."""
 
 
 class Order(NamedTuple):
@@ -114,6 +51,15 @@ class Order(NamedTuple):
 
     t: Second
     command: Command
+
+
+class FlownAgain(NamedTuple):
+    """What a flight is flown again by, beside its scenario."""
+
+    orders: tuple[Order, ...]
+    engagement: Engagement
+    """How far guidance was engaged at the start."""
+    seed: int
 
 
 def read_orders(stream: IO[bytes], name: str) -> tuple[Order, ...]:
@@ -127,18 +73,87 @@ def read_orders(stream: IO[bytes], name: str) -> tuple[Order, ...]:
         ValueError: naming the first line that is not an order, and what would be right.
     """
     orders: list[Order] = []
-    for number, line in enumerate(_lines(stream), start=1):
-        if not line.strip():
-            continue
+    for where, body in _bodies(stream, name, OrderBody):
         try:
-            order = _order(line)
-            if orders and order.t < orders[-1].t:
-                before = f"at least {orders[-1].t:.12g}, that of the order before"
-                raise ContractError([("t_s", f"must be {before}, not {order.t:.12g}.")])
+            orders.append(order_of(body.root, orders[-1].t if orders else 0.0))
         except ContractError as error:
-            raise ValueError(f"{name}, line {number}: {error}") from None
-        orders.append(order)
+            raise ValueError(f"{where}: {error}") from None
     return tuple(orders)
+
+
+def order_of(line: LeaderLine | CrewLine, before: Second = 0.0) -> Order:
+    """The order of a line, whose shape is right.
+
+    Args:
+        line: as it was read.
+        before: time of the order before it.
+
+    Raises:
+        ContractError: if it has no time, or comes before the one before it.
+    """
+    if line.t_s is None:
+        said = "waits for a cue, which only a crew's script has: give t_s."
+        raise ContractError([("on", said)])
+    if line.t_s < before:
+        said = f"must be at least {before:.12g}, that of the order before, not {line.t_s:.12g}."
+        raise ContractError([("t_s", said)])
+    return Order(line.t_s, line.command())
+
+
+def read_crew(stream: IO[bytes], name: str) -> tuple[CrewOrder, ...]:
+    """Read a crew's script, one order a line; blank lines are passed over.
+
+    Args:
+        stream: what to read.
+        name: what the reader knows it by, for messages.
+
+    Raises:
+        ValueError: naming the first line that is no order of a crew, and what would be right.
+    """
+    return tuple(crew_order(body.root) for _, body in _bodies(stream, name, CrewOrderBody))
+
+
+def crew_order(line: CrewLine) -> CrewOrder:
+    """What a line of a crew's script says."""
+    if line.on is None:
+        return CrewOrder(command=line.command(), after=line.t_s)
+    return CrewOrder(command=line.command(), on=line.on, after=line.after_s)
+
+
+def begun(script: Sequence[CrewOrder]) -> tuple[Engagement, tuple[CrewOrder, ...]]:
+    """How far guidance is engaged as a crew begins, and what is left of its script.
+
+    Off, unless the first line is an engagement at 0 s: that says how the flight begins.
+    """
+    match script:
+        case [CrewOrder(command=SetEngagement() as first, on="start", after=0.0), *rest]:
+            return first.engagement, tuple(rest)
+    return "off", tuple(script)
+
+
+def flown_again(documents: Iterable[Document]) -> FlownAgain:
+    """What a recorded flight is flown again by.
+
+    Raises:
+        ValueError: if its documents do not begin with its start.
+    """
+    orders: list[Order] = []
+    seed, first = -1, ""
+    engaged: list[Engagement] = []
+    for document in documents:
+        match document:
+            case FlightStarted():
+                seed = document.seed
+                first = next((link.pursuer for link in document.links), "")
+            case CommandGiven():
+                orders.append(Order(document.t, document.command))
+            case EngagementChanged(ident=ident, previous=previous) if ident == first:
+                engaged.append(previous)
+            case Sample(guidance=guidance):
+                engaged += [one.engagement for one in guidance[:1]]
+    if seed < 0:
+        raise ValueError("The recording lacks its beginning, so it cannot be flown again.")
+    return FlownAgain(tuple(orders), engaged[0] if engaged else "engaged", seed)
 
 
 def commands_of(orders: Sequence[Order]) -> Callable[[Second], Iterable[Command]]:
@@ -152,17 +167,35 @@ def commands_of(orders: Sequence[Order]) -> Callable[[Second], Iterable[Command]
     return due
 
 
-def expect_flying(orders: Sequence[Order], world: World) -> None:
+def expect_flying(orders: Sequence[Order], script: Sequence[CrewOrder], world: World) -> None:
     """Refuse an order to an aircraft that does not fly, or cannot be given it.
 
     Raises:
         ValueError: for the first such order, with its time and what would be right.
     """
-    links = [(link.pursuer, link.leader) for link in world.links]
     for order in orders:
-        fault = order_fault(order.command, [one.ident for one in world.aircraft], links)
-        if fault:
+        if fault := fault_in(order.command, world):
             raise ValueError(f"The order at {order.t:.12g} s: {fault}")
+    for number, one in enumerate(script, start=1):
+        if fault := fault_in(one.command, world):
+            raise ValueError(f"The crew's order {number}: {fault}")
+
+
+def fault_in(command: Command, world: World) -> str:
+    """Why an aircraft of a world cannot be given a command, in a sentence; empty if it can."""
+    links = [(link.pursuer, link.leader) for link in world.links]
+    return order_fault(command, [one.ident for one in world.aircraft], links)
+
+
+def _bodies(stream: IO[bytes], name: str, model: type[M]) -> Iterator[tuple[str, M]]:
+    """Each line that is not blank, and where it stands."""
+    for number, line in enumerate(_lines(stream), start=1):
+        if line.strip():
+            where = f"{name}, line {number}"
+            try:
+                yield where, _body(line, model)
+            except ContractError as error:
+                raise ValueError(f"{where}: {error}") from None
 
 
 def _lines(stream: IO[bytes]) -> Iterator[bytes]:
@@ -170,15 +203,10 @@ def _lines(stream: IO[bytes]) -> Iterator[bytes]:
         yield line
 
 
-def _order(line: bytes) -> Order:
+def _body(line: bytes, model: type[M]) -> M:
     if len(line) > MAX_LINE:
         raise ContractError([("", f"This is longer than {MAX_LINE:,} bytes, so it is no order.")])
     content = loads(line)
     if not isinstance(content, dict):
         raise ContractError([("", "A line must be an object with fields: an order.")])
-    given = [name for name in _MODELS if name in content]
-    if len(given) != 1:
-        names = "leader_heading_deg, leader_tas_mps, leader_level_m or intent_known"
-        raise ContractError([("", f"An order has one of {names}, not {len(given)} of them.")])
-    body = parse(_MODELS[given[0]], content)
-    return Order(body.t_s, body.command())
+    return parse(model, content)

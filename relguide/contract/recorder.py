@@ -80,6 +80,23 @@ def read_lines(file: Path | str) -> Iterator[tuple[Document, bytes]]:
             yield _document(line, f"{path}, line {number}"), line
 
 
+def is_recording(file: Path | str) -> bool:
+    """Whether a file says of itself that it is a recording, of whatever version.
+
+    Raises:
+        OSError: if it cannot be opened.
+    """
+    from relguide.contract.refusal import ContractError, loads
+
+    path = Path(file)
+    with _open(path, "rb") as stream:
+        try:
+            header = loads(next(_lines(stream, path), b""))
+        except (ContractError, RecordingError):
+            return False
+    return isinstance(header, dict) and header.get("format") == FORMAT
+
+
 def check_name(file: Path | str) -> None:
     """Refuse a name that a recording cannot have.
 

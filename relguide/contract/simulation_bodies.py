@@ -50,6 +50,19 @@ class SimulationNearest(Strict):
     """What was to be kept; 0 for a cell."""
 
 
+class SimulationByHand(Strict):
+    """How well the crew, or its model, flew by hand along the flight director's bars."""
+
+    time_s: float
+    """How long it flew by hand."""
+    with_bars_s: float
+    """… of that with the bars in view."""
+    within_bar_s: float
+    """… of that with the roll bar within 2° of the middle."""
+    tube_m: float
+    """Largest distance from the path that it was to fly."""
+
+
 class SimulationAlert(Strict):
     """An alert that was given to the pursuer's crew, or its end."""
 
@@ -118,6 +131,8 @@ class SimulationFigures(Strict):
     """What guidance could not do."""
     least_other: SimulationNearest | None = None
     """Of all others, the one with the least to spare; left out where there are none."""
+    by_hand: SimulationByHand | None = None
+    """Left out where the autopilot flew all the way."""
 
 
 class SimulationLink(SimulationFigures):

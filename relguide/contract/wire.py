@@ -32,6 +32,7 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
         AircraftCard,
         AircraftSample,
         ClosestOther,
+        FlownByHand,
         GuidanceSample,
         LinkCard,
         LinkResult,
@@ -67,6 +68,7 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
         | LinkResult
         | Loss
         | ClosestOther
+        | FlownByHand
     )
     """Parts of documents that also travel alone."""
 

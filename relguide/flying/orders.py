@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
+from math import degrees, radians
 from typing import Literal, get_args
 
 from relguide.flying.engagement import Engagement
@@ -151,6 +152,7 @@ class PursuerBank:
     def __post_init__(self) -> None:
         """Refuse a bank outside the accepted range."""
         expect_within("bank", self.bank / DEG, *BANK)
+        object.__setattr__(self, "bank", _as_recorded(self.bank))
         text("ident", self.ident)
 
 
@@ -262,7 +264,18 @@ def expect_engagement(value: object) -> None:
 
 
 def _settle_heading(order: LeaderHeading | PursuerHeading) -> None:
-    object.__setattr__(order, "heading", expect_within("heading", order.heading, *HEADING))
+    heading = expect_within("heading", order.heading, *HEADING)
+    object.__setattr__(order, "heading", _as_recorded(heading))
+
+
+def _as_recorded(angle: Radian) -> Radian:
+    """An angle in [0, 2π) that is read back to the bit from a recording, which has degrees [rad].
+
+    It is within rounding of the one given: a flight is flown again with the very same orders.
+    """
+    while (read := radians(degrees(angle) % 360.0 % 360.0)) != angle:  # −1e-17 % 360 is 360
+        angle = read
+    return angle
 
 
 NewTask = PursuerBank | PursuerSpeed | SetSpacing

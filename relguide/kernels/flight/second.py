@@ -61,7 +61,7 @@ def fly_steps(
         lengths: how many pieces each declared. shape (n,)
         cursors: the piece each is flying, kept up to date. shape (n,)
         helds: headings before the first piece [rad]. shape (n,)
-        hands: the bars, and the hands of those that are flown by them. shape (n, `COLUMNS`)
+        hands: the bars, and the hands of those that are flown by them. shape (n, `columns(dt)`)
         whites: draws of the standard normal distribution, read for pilots that follow a bar.
             shape (n, steps)
         winds: what moves each, now and after each step, gusts and all [m/s, east and north].
@@ -73,15 +73,13 @@ def fly_steps(
         trace: where each is after each step, the present first; rows of recorded aircraft are
             given, all others written. shape (n, steps + 1, 7)
         bars: commanded bank of guided aircraft, and their roll bar, as they come out of each step
-            [rad]; the first are those of the second before. shape (n, steps + 1, 2)
+            [rad]; the first are given. shape (n, steps + 1, 2)
         tallies: figures so far. shape (n, 4)
     """
     for i in range(len(states)):
         can = limits_at(limits, i)
         body = body_at(states, i)
         store(trace[i], begin, body)
-        if begin == 0:
-            bars[i, 0] = bars[i, len(bars[i]) - 1]
         program = programs[i, : lengths[i]]
         for k in range(begin, end):
             wind = Drift(winds[i, k, 0], winds[i, k, 1])
@@ -98,7 +96,7 @@ def fly_steps(
                 bars[i, k + 1, 1] = smooth_bar(hands[i], bank - body.bank, dt)
                 roll = aileron(bank, body, can)
                 if pilots[i] == BY_BAR:
-                    follow_bar(hands[i], bank - body.bank, whites[i, k], can, t + k * dt, dt)
+                    follow_bar(hands[i], bars[i, k, 1], body, whites[i, k], can, t + k * dt, dt)
                 if pilots[i] != GUIDED:
                     roll = roll_by_stick(hands[i, STICK], body, can)
                 after = roll_step(body, roll, integral, control.tas, can, wind, dt)

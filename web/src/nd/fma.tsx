@@ -1,7 +1,9 @@
 import { useComputed } from "@preact/signals";
+import type { Colour } from "../store/colours";
 import { Cell } from "./cell";
 import { type LayerProps, usePart } from "./layer";
 import { trendSign } from "./leader";
+import { ink } from "./style";
 import { READOUTS } from "./view";
 
 const COLUMN = READOUTS.fma.width / 5;
@@ -24,7 +26,13 @@ export function ModeStrip({ shown }: LayerProps) {
   const spacing = useComputed(() =>
     numbers.value.isSpacing ? `D ${numbers.value.slotDistance}` : "",
   );
-  const pilot = useComputed(() => (modes.value === null ? "" : "AP1"));
+  const speedColour = usePart(shown, ({ speed }): Colour => {
+    return speed.isSelected ? "selected" : "value";
+  });
+  const pilot = usePart(shown, (picture) => picture.pilot.now);
+  const pilotNext = usePart(shown, (picture) => picture.pilot.next);
+  const isNewPilot = usePart(shown, (picture) => picture.pilot.boxed);
+  const isLost = usePart(shown, (picture) => picture.pilot.isLost);
   const isNewMode = usePart(shown, (picture) => picture.boxed);
   const isNewSpeed = usePart(shown, (picture) => picture.speed.boxed);
   const middle = (column: number) => COLUMN * (column + 0.5);
@@ -36,7 +44,7 @@ export function ModeStrip({ shown }: LayerProps) {
         class="nd-rule"
         d={`M0 ${height}H${width}${[1, 2, 3, 4].map((i) => `M${COLUMN * i} 4V${height - 6}`).join("")}`}
       />
-      <Cell x={middle(0)} y={ROW.now} text={speed} colour="value" anchor="middle" />
+      <Cell x={middle(0)} y={ROW.now} text={speed} colour={speedColour} anchor="middle" />
       <Cell x={middle(1)} y={ROW.now} text={level} colour="value" anchor="middle" />
       <Cell x={middle(2)} y={ROW.now} text={lateral} colour="value" anchor="middle" />
       <Cell x={middle(3)} y={ROW.now} text={spacing} colour="selected" anchor="middle" />
@@ -57,13 +65,33 @@ export function ModeStrip({ shown }: LayerProps) {
         anchor="middle"
         size={20}
       />
+      {pilotNext.value !== "" && (
+        <Cell
+          x={middle(4)}
+          y={ROW.next}
+          text={pilotNext}
+          colour="label"
+          anchor="middle"
+          size={20}
+        />
+      )}
       {isNewSpeed.value && <Box column={0} />}
       {isNewMode.value && <Box column={2} />}
+      {isNewPilot.value && <Box column={4} isLost={isLost.value} />}
     </g>
   );
 }
 
-/** The white frame round a mode that is new. */
-function Box({ column }: { column: number }) {
-  return <rect class="nd-box" x={COLUMN * column + 8} y={3} width={COLUMN - 16} height={26} />;
+/** The frame round what is new: white, or amber where it was not asked for. */
+function Box({ column, isLost = false }: { column: number; isLost?: boolean }) {
+  return (
+    <rect
+      class="nd-box"
+      x={COLUMN * column + 8}
+      y={3}
+      width={COLUMN - 16}
+      height={26}
+      {...(isLost && { style: `stroke:${ink("caution")}` })}
+    />
+  );
 }

@@ -5,6 +5,7 @@ import { useEffect } from "preact/hooks";
 import { readRecorded } from "../api";
 import { set, useFocus } from "../parts";
 import type { Session } from "../session";
+import "./dialogs.css";
 import { Export } from "./export";
 
 export function ExportDialog({ session }: { session: Session }) {

@@ -6,6 +6,7 @@ import { listRecords, type RecordedFlight } from "../api";
 import { set, useFocus } from "../parts";
 import type { Actions, Session } from "../session";
 import { formatClock, formatMiles } from "../units";
+import "./dialogs.css";
 
 const SHOWN = 100;
 

@@ -14,6 +14,8 @@ import {
   guidance,
   isRecent,
   leaderAge,
+  NEWS,
+  revertedAt,
   separation,
   wasDropped,
 } from "./states";
@@ -47,7 +49,13 @@ function politeOf(flight: Moment): string {
   const advice = flight.alerts
     .filter(({ level }) => level === "advisory")
     .map((each) => alertSentence(flight, each));
-  return [state, ...advice].filter((each) => each !== "").join(" ");
+  return [state, crewSentence(flight), ...advice].filter((each) => each !== "").join(" ");
+}
+
+/** What became of the crew's last order on who flies, or on what guidance is to do. */
+function crewSentence({ control, assignment }: Moment): string {
+  const isAssigned = (assignment?.t_s ?? 0) > (control?.t_s ?? 0);
+  return inPageUnits((isAssigned ? assignment : control)?.message ?? "");
 }
 
 /** What guidance does, or what the crew can do: of several sentences on one event, one. */
@@ -86,6 +94,7 @@ function proposedSentence(flight: Moment): string {
 
 function assertiveOf(flight: Moment): string {
   const state = guidance(flight);
+  const isByHand = flight.sample?.autopilot === false;
   const sentences: string[] = [];
   const outlook = separation(flight).state;
   const minimum = `${formatMiles(flight.started?.min_separation_m ?? 0)} nautical miles`;
@@ -102,10 +111,12 @@ function assertiveOf(flight: Moment): string {
   const seconds = leaderAge(flight);
   if (state === "data_lost")
     sentences.push(
-      "Leader data lost: guidance is off, and the autopilot holds the selected heading.",
+      `Leader data lost: guidance is off, and ${isByHand ? "you fly: hold the heading" : "the autopilot holds the selected heading"}.`,
     );
   else if (seconds > OLD && GUIDANCE[state].designated)
     sentences.push(`Leader data old: nothing heard for more than ${OLD} seconds.`);
+  else if (isByHand && isRecent(flight, revertedAt(flight), NEWS))
+    sentences.push("Guidance commands no more. You fly: hold the heading.");
   if (state === "escape") sentences.push(newest(flight, ["mode"]));
   const { unavailable, unable } = flight;
   const why = unable !== null ? unableSentence(unable) : unavailable?.answer.message;

@@ -303,6 +303,7 @@ export function emptyFlight(): Flight {
   return {
     id: signal(null),
     moment: signal(NO_MOMENT),
+    heard: signal(null),
     read: signal(NO_MOMENT),
     since: signal(0),
     source: signal({ kind: "live" }),

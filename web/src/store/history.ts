@@ -16,7 +16,7 @@ const CHECKPOINT_EVERY = 256;
 
 export interface History {
   readonly knots: Knots;
-  /** All but the samples, in order of time. */
+  /** All that `isEvent`, in order of time. */
   readonly events: readonly Document[];
   /** Takes documents that follow on those before. */
   take(documents: readonly Document[]): void;
@@ -70,8 +70,8 @@ export function createHistory(): History {
       .filter((each) => each !== null);
   }
 
-  function minSeparation(): number {
-    return foldTo(events.length).started?.min_separation_m ?? 0;
+  function minSeparationAt(t: number): number {
+    return knownAt(t).started?.min_separation_m ?? 0;
   }
 
   function trailAt(t: number): Seen["trail"] {
@@ -102,20 +102,20 @@ export function createHistory(): History {
       return events;
     },
     take(documents) {
-      events.push(...documents.filter(({ kind }) => kind !== "sample"));
+      events.push(...documents.filter(isEvent));
       const ended = documents.some(({ kind }) => kind === "flight_ended");
       const samples = samplesOf(documents);
-      for (const sample of samples) knots.take(sample, minSeparation());
+      for (const sample of samples) knots.take(sample, minSeparationAt(sample.t_s));
       const last = samples.at(-1);
-      if (ended && last !== undefined) knots.merge([last], minSeparation());
+      if (ended && last !== undefined) knots.merge([last], minSeparationAt);
     },
     merge(documents) {
-      const come = documents.filter(({ kind }) => kind !== "sample");
+      const come = documents.filter(isEvent);
       const known = new Set(come.map((each) => JSON.stringify(each)));
       events = inOrder([...come, ...events.filter((each) => !known.has(JSON.stringify(each)))]);
       checkpoints = [NOTHING_KNOWN];
       reached = { count: 0, known: NOTHING_KNOWN };
-      knots.merge(samplesOf(documents), minSeparation());
+      knots.merge(samplesOf(documents), minSeparationAt);
       trailed = null;
     },
     knownAt,
@@ -131,6 +131,11 @@ export function createHistory(): History {
       };
     },
   };
+}
+
+/** Whether a document is news: samples are not, nor are orders, since what comes of each is said besides. */
+export function isEvent({ kind }: Document): boolean {
+  return kind !== "sample" && kind !== "command_given";
 }
 
 /** By time, each kind as it came; the first document of a flight comes first. */

@@ -3,7 +3,7 @@
  * them the aircraft are found by interpolation, to 2 mm; an hour takes a megabyte.
  */
 
-import type { AircraftSample, PathPoint } from "../wire";
+import type { AircraftSample, Bars, PathPoint } from "../wire";
 import { expected, interpolate, moveSample } from "./motion";
 import type { PairSample } from "./pair";
 import { GRAZE } from "./states";
@@ -33,10 +33,13 @@ const OF_PAIR = [
   "margin_m",
 ] as const;
 
+const OF_BARS = ["roll_deg", "pitch_deg", "commanded_bank_deg", "commanded_climb_mps"] as const;
+
 const PURSUER = OF_PAIR.length;
 const LEADER = PURSUER + OF_AIRCRAFT.length;
 const SLOT = LEADER + OF_AIRCRAFT.length;
-const REFERENCE = SLOT + OF_SLOT.length;
+const BARS = SLOT + OF_SLOT.length;
+const REFERENCE = BARS + OF_BARS.length;
 /** What follows from the samples before: since when joined, last below the minimum, last row with a leader heard. */
 const JOINED = REFERENCE + 1;
 const BELOW = JOINED + 1;
@@ -45,7 +48,10 @@ const WIDTH = HEARD + 1;
 
 /** What is decided, not measured: few different ones, each kept once. */
 interface Decided
-  extends Pick<PairSample, "mode" | "engagement" | "joined" | "alert" | "slot_open"> {
+  extends Pick<
+    PairSample,
+    "mode" | "engagement" | "joined" | "alert" | "slot_open" | "autopilot" | "director"
+  > {
   readonly pursuer: string;
   readonly leader: string;
   readonly others: readonly string[];
@@ -71,8 +77,8 @@ export interface Knots {
   readonly span: { readonly first: number; readonly last: number } | null;
   /** Takes the next sample, if a second is over since the last one taken. */
   take(sample: PairSample, minSeparation: number): void;
-  /** Takes samples of any time that are not there yet. */
-  merge(samples: readonly PairSample[], minSeparation: number): void;
+  /** Takes samples of any time that are not there yet; d_min may be another at another flight time. */
+  merge(samples: readonly PairSample[], minSeparationAt: (t: number) => number): void;
   /** The two at flight time `t` [s], held to the ends; null before the first sample. */
   sampleAt(t: number): PairSample | null;
   joinedAt(t: number): number;
@@ -111,6 +117,9 @@ export function createKnots(): Knots {
     OF_SLOT.forEach((name, k) => {
       rows[at + SLOT + k] = sample.slot[name];
     });
+    OF_BARS.forEach((name, k) => {
+      rows[at + BARS + k] = sample.bars?.[0]?.[name] ?? Number.NaN; // out of view
+    });
     const { reference } = sample;
     rows[at + REFERENCE] =
       reference.kind === "hold_heading" ? reference.heading_deg : reference.turn_rate_degps;
@@ -132,14 +141,16 @@ export function createKnots(): Knots {
   }
 
   function intern(sample: PairSample): Decided {
-    const { mode, engagement, joined, alert, slot_open } = sample;
+    const { mode, engagement, joined, alert, slot_open, autopilot, director } = sample;
+    const hands = { ...(autopilot === false && { autopilot }), ...(director && { director }) };
     const [pursuer, leader, reference] = [
       sample.pursuer.ident,
       sample.leader.ident,
       sample.reference.kind,
     ];
     const others = sample.others.map(({ ident }) => ident);
-    const one = { mode, engagement, joined, alert, slot_open, pursuer, leader, others, reference };
+    const state = { mode, engagement, joined, alert, slot_open, ...hands };
+    const one = { ...state, pursuer, leader, others, reference };
     const key = JSON.stringify(one);
     const known = kept.get(key);
     if (known !== undefined) return known;
@@ -154,6 +165,7 @@ export function createKnots(): Knots {
     const at = row * WIDTH;
     const numbers = Object.fromEntries(OF_PAIR.map((name, k) => [name, rows[at + k]]));
     const slot = Object.fromEntries(OF_SLOT.map((name, k) => [name, rows[at + SLOT + k]]));
+    const bars = Object.fromEntries(OF_BARS.map((name, k) => [name, rows[at + BARS + k]]));
     const value = cell(row, REFERENCE);
     const { pursuer, leader, others, reference, ...rest } = how;
     const columns = beside[row] ?? new Float64Array();
@@ -165,6 +177,7 @@ export function createKnots(): Knots {
           ? { kind: reference, heading_deg: value }
           : { kind: reference, turn_rate_degps: value },
       slot: slot as unknown as PathPoint,
+      ...(!Number.isNaN(cell(row, BARS)) && { bars: [bars as unknown as Bars] }),
       pursuer: getAircraft(rows, at + PURSUER, pursuer),
       leader: getAircraft(rows, at + LEADER, leader),
       others: others.map((ident, k) => getAircraft(columns, k * OF_AIRCRAFT.length, ident)),
@@ -214,7 +227,7 @@ export function createKnots(): Knots {
       const last = count === 0 ? Number.NEGATIVE_INFINITY : cell(count - 1, 0);
       if (sample.t_s > Math.floor(last + SLACK) + 1 - SLACK) put(sample, minSeparation);
     },
-    merge(samples, minSeparation) {
+    merge(samples, minSeparationAt) {
       const rowsNow = Array.from({ length: count }, (_, row) => raw(row));
       const known = new Set(rowsNow.map(({ t_s }) => Math.round(t_s / SLACK)));
       rowsNow.push(...samples.filter(({ t_s }) => !known.has(Math.round(t_s / SLACK))));
@@ -222,7 +235,7 @@ export function createKnots(): Knots {
       decided = [];
       beside = [];
       count = 0;
-      for (const each of rowsNow) put(each, minSeparation);
+      for (const each of rowsNow) put(each, minSeparationAt(each.t_s));
     },
     sampleAt,
     joinedAt: (t) => (count === 0 ? Number.POSITIVE_INFINITY : cell(Math.max(0, rowAt(t)), JOINED)),

@@ -2,7 +2,7 @@
 
 import { CALM, type Vector, velocity } from "../geometry";
 import { DEG, wrap180, wrap360 } from "../units";
-import type { AircraftSample, PathPoint } from "../wire";
+import type { AircraftSample, Bars, PathPoint } from "../wire";
 import type { PairSample } from "./pair";
 
 /** The wind an aircraft flies in [m/s]: its velocity over the ground less that through the air. */
@@ -84,7 +84,21 @@ export function interpolate(from: PairSample, to: PairSample, t: number): PairSa
     spacing_error_m: mixed("spacing_error_m"),
     cross_track_m: mixed("cross_track_m"),
     commanded_tas_mps: mixed("commanded_tas_mps"),
+    ...meanwhileBars(from.bars?.[0], to.bars?.[0], part),
   };
+}
+
+/** The flight director's bars between two samples: from out of view they come at once. */
+function meanwhileBars(from: Bars | undefined, to: Bars | undefined, part: number) {
+  if (from === undefined || to === undefined) return {};
+  const mixed = (name: keyof Bars) => mix(from[name], to[name], part);
+  const bars = {
+    roll_deg: mixed("roll_deg"),
+    pitch_deg: mixed("pitch_deg"),
+    commanded_bank_deg: mixed("commanded_bank_deg"),
+    commanded_climb_mps: mixed("commanded_climb_mps"),
+  };
+  return { bars: [bars] };
 }
 
 type Mixed =

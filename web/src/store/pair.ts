@@ -93,6 +93,8 @@ export function isAbout(document: Document, pair: PairCard): boolean {
     case "plan_changed":
     case "plan_proposed":
     case "engagement_changed":
+    case "control_changed":
+    case "assignment_changed":
     case "plan_unavailable":
     case "plan_refused":
     case "mode_changed":
@@ -103,6 +105,8 @@ export function isAbout(document: Document, pair: PairCard): boolean {
     case "forecast_changed":
     case "fan_changed":
       return document.ident === pair.pursuer.ident;
+    case "command_given":
+      return false; // what comes of it is said by other documents
   }
 }
 

@@ -38,7 +38,7 @@ import { type Moved, moveAircraft, movedBy, STILL } from "./motion";
 import { type Notice, noticesOf } from "./notices";
 import { type Numbers, numbersOf, ROLL_IN } from "./numbers";
 import type { PairCard, PairSample } from "./pair";
-import { AGE, type AgeStyle, GUIDANCE, type GuidanceStyle } from "./state-styles";
+import { AGE, type AgeStyle, GUIDANCE, type GuidanceStyle, PILOT } from "./state-styles";
 import {
   age,
   ageOf,
@@ -49,6 +49,8 @@ import {
   leaderAge,
   NEWS,
   type Outlook,
+  pilot,
+  revertedAt,
   separation,
 } from "./states";
 import { type Traffic, trafficOf } from "./traffic";
@@ -161,7 +163,20 @@ export interface Picture {
   /** A new mode is boxed for a while. */
   readonly boxed: boolean;
   /** Who commands the speed now, and who will; boxed for a while once that has changed. */
-  readonly speed: { readonly now: string; readonly next: string; readonly boxed: boolean };
+  readonly speed: {
+    readonly now: string;
+    readonly next: string;
+    /** Whether the crew has selected it in place of guidance. */
+    readonly isSelected: boolean;
+    readonly boxed: boolean;
+  };
+  /** Who flies; boxed for a while once that has changed, in amber where the crew did not ask for it. */
+  readonly pilot: {
+    readonly now: string;
+    readonly next: string;
+    readonly boxed: boolean;
+    readonly isLost: boolean;
+  };
   readonly notices: readonly Notice[];
   readonly ended: boolean;
 }
@@ -281,6 +296,7 @@ export function pictureOf(flight: Moment): Picture {
     order: guided === null ? "" : orderOf(flight, state),
     boxed: style !== null && isRecent(flight, flight.mode?.t_s, NEWS),
     speed: speedOf(flight, style),
+    pilot: pilotOf(flight, style),
     notices: noticesOf(flight),
     ended: flight.ended,
   };
@@ -292,15 +308,29 @@ function supersededPlan(flight: Moment): PlanChanged | null {
 }
 
 function speedOf(flight: Moment, style: GuidanceStyle | null): Picture["speed"] {
-  const { sample, before, plan } = flight;
-  if (style === null || sample === null) return { now: "", next: "", boxed: false };
-  const isCommanded = commandsSpeed(sample, plan);
+  const { sample, before, plan, assignment } = flight;
+  if (style === null || sample === null)
+    return { now: "", next: "", isSelected: false, boxed: false };
+  const isSelected = (assignment?.selected_tas_mps.length ?? 0) > 0;
+  const isCommanded = !isSelected && commandsSpeed(sample, plan);
   const wasCommanded = before !== null && commandsSpeed(before, plan);
   return {
     now: isCommanded ? "RG SPD" : "SPD",
     next: isCommanded ? "" : style.speedNext,
-    boxed: before !== null && isCommanded !== wasCommanded,
+    isSelected,
+    boxed: isSelected
+      ? isRecent(flight, assignment?.t_s, NEWS)
+      : before !== null && isCommanded !== wasCommanded,
   };
+}
+
+function pilotOf(flight: Moment, style: GuidanceStyle | null): Picture["pilot"] {
+  const { sample, before } = flight;
+  if (style === null || sample === null) return { now: "", next: "", boxed: false, isLost: false };
+  const flies = pilot(sample);
+  const isLost = flies === "director" && isRecent(flight, revertedAt(flight), NEWS);
+  const boxed = isLost || (before !== null && pilot(before) !== flies);
+  return { ...PILOT[flies], boxed, isLost };
 }
 
 function orderOf(flight: Moment, state: Guidance): Order {

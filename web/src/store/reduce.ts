@@ -24,6 +24,8 @@ export const NOTHING_KNOWN: Known = {
   lost: null,
   mode: null,
   engagement: null,
+  control: null,
+  assignment: null,
   result: null,
   messages: [],
 };
@@ -51,6 +53,13 @@ function take(known: Known, document: Document, pair: PairCard): Known {
       return { ...known, proposal: document, unavailable: null, unable: null };
     case "engagement_changed":
       return takeEngagement(known, document);
+    case "control_changed":
+      return { ...known, control: document };
+    case "assignment_changed": {
+      const { slot_distance_m, min_separation_m } = document;
+      const started = { ...pair, slot_distance_m, min_separation_m };
+      return { ...known, started, assignment: document };
+    }
     case "mode_changed":
       return { ...known, mode: document };
     case "promise_changed":
@@ -70,6 +79,7 @@ function take(known: Known, document: Document, pair: PairCard): Known {
     case "flight_started":
     case "leader_changed":
     case "plan_refused":
+    case "command_given":
     case "sample":
       return known;
   }
@@ -90,6 +100,9 @@ export function messageOf(document: Document): Message | null {
       const isRefused = document.engagement === document.previous;
       return say(isRefused ? "refused" : "engagement", document.message);
     }
+    case "control_changed":
+    case "assignment_changed":
+      return say("engagement", document.message);
     case "plan_refused":
       return say("refused", document.message);
     case "mode_changed":
@@ -109,6 +122,7 @@ export function messageOf(document: Document): Message | null {
     case "plan_proposed":
     case "forecast_changed":
     case "fan_changed":
+    case "command_given":
     case "sample":
       return null;
   }

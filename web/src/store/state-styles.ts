@@ -1,7 +1,7 @@
 /** What is shown in every state: tables, so that a state without a look does not compile. */
 
 import type { Colour } from "./colours";
-import type { Age, Guidance } from "./states";
+import type { Age, Guidance, Pilot } from "./states";
 
 /** What the picture shows of guidance. */
 export interface GuidanceStyle {
@@ -96,6 +96,14 @@ export const GUIDANCE: Record<Guidance, GuidanceStyle> = {
     lateral: { now: "HDG", next: "RG" },
   },
   data_lost: { ...NOTHING, slot: "none", spacing: false },
+};
+
+/** What the mode strip says of who flies: what is switched on, and whether it is the crew's turn. */
+export const PILOT: Record<Pilot, { readonly now: string; readonly next: string }> = {
+  autopilot: { now: "AP1", next: "" },
+  both: { now: "AP1 FD", next: "" },
+  director: { now: "FD", next: "YOU FLY" },
+  hand: { now: "", next: "YOU FLY" },
 };
 
 /** What the age of the data leaves of the picture. */

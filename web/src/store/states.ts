@@ -63,6 +63,22 @@ export function wasDropped({ engagement: last }: Moment): boolean {
   return last?.previous === "engaged" && last.engagement === "designated";
 }
 
+/** Who flies: the autopilot, the crew along the flight director's bars, or the crew without them. */
+export const PILOTS = ["autopilot", "both", "director", "hand"] as const;
+export type Pilot = (typeof PILOTS)[number];
+
+/** both: the autopilot flies, and the flight director is on. */
+export function pilot({ autopilot = true, director = false }: PairSample): Pilot {
+  if (autopilot) return director ? "both" : "autopilot";
+  return director ? "director" : "hand";
+}
+
+/** When guidance last gave up what it commanded, unasked, so that a heading is held [s]. */
+export function revertedAt({ mode, engagement }: Moment): number | undefined {
+  const isAsked = engagement?.engagement === "off";
+  return mode?.mode === "heading" && !isAsked ? mode.t_s : undefined;
+}
+
 /** How old all that is shown is. */
 export function age(flight: Moment): Age {
   if (flight.now === null) return "none";

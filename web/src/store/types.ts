@@ -3,6 +3,8 @@
 import type { Signal } from "@preact/signals";
 import type {
   Alert,
+  AssignmentChanged,
+  ControlChanged,
   EngagementChanged,
   FanChanged,
   ForecastChanged,
@@ -15,6 +17,7 @@ import type {
   PlanUnavailable,
   PromiseChanged,
   SeparationLost,
+  Tick,
   Unable,
 } from "../wire";
 import type { PairCard, PairSample } from "./pair";
@@ -78,6 +81,10 @@ export interface Known {
   readonly mode: ModeChanged | null;
   /** What the crew last ordered, and what became of it. */
   readonly engagement: EngagementChanged | null;
+  /** Who flies, as it was last said. */
+  readonly control: ControlChanged | null;
+  /** What guidance is to do, as the crew last changed it: D and d_min are those of `started`, too. */
+  readonly assignment: AssignmentChanged | null;
   /** How it went, once it is over. */
   readonly result: LinkResult | null;
   /** Newest first. */
@@ -128,6 +135,8 @@ export interface Flight {
   readonly id: Signal<string | null>;
   /** The instant whose picture is drawn. */
   readonly moment: Signal<Moment>;
+  /** The newest tick, as soon as it is there, and when that was [wall ms]: what is flown by hand shows it. */
+  readonly heard: Signal<{ readonly tick: Tick; readonly wall: number } | null>;
   /** The same for numbers to be read: it changes five times a second. */
   readonly read: Signal<Moment>;
   /** Flight time since the picture was drawn [s]: what moves is carried on by it until the next one. */
