@@ -22,8 +22,8 @@ export interface StreamEvents {
 }
 
 export interface Stream {
-  /** Told of every frame after the page: who flies by hand listens. */
-  heard: ((frame: Tick | ControlAnswer) => void) | null;
+  /** Told who has control: set by what has asked for it. */
+  answered: ((answer: ControlAnswer) => void) | null;
   /** Sends a frame; false while there is no link. */
   send(frame: Upstream): boolean;
   /** Tries again now instead of waiting. */
@@ -48,8 +48,8 @@ export function openStream(url: string, protocol: string, events: StreamEvents):
     opened.onmessage = (message: MessageEvent<string>) => {
       failures = 0; // only data prove the link: a server may accept and close at once
       const frame = JSON.parse(message.data) as Tick | ControlAnswer;
-      if (frame.kind === "tick") events.tick(frame);
-      stream.heard?.(frame);
+      if (frame.kind === "control") stream.answered?.(frame);
+      else events.tick(frame);
     };
     opened.onclose = (closed) => {
       if (socket !== opened) return;
@@ -67,7 +67,7 @@ export function openStream(url: string, protocol: string, events: StreamEvents):
   }
 
   const stream: Stream = {
-    heard: null,
+    answered: null,
     send(frame) {
       if (socket?.readyState !== WebSocket.OPEN) return false;
       socket.send(JSON.stringify(frame));

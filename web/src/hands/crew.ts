@@ -65,10 +65,7 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
       return;
     }
     asked = "take";
-    link.heard = (frame) => {
-      if (frame.kind === "control") answered(frame, link);
-      else hands.value?.hear(frame);
-    };
+    link.answered = (answer) => answered(answer, link);
     say("sending", "Taking control…");
   }
 

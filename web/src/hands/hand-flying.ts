@@ -1,10 +1,11 @@
 /** While the crew flies by hand: listens to keys, the pad and a controller, and sends the stick. */
 
-import { type ReadonlySignal, signal } from "@preact/signals";
+import { effect, type ReadonlySignal, signal } from "@preact/signals";
 import { isTaken } from "../keyboard";
 import type { Session } from "../session";
 import { speedOf } from "../store/flight";
-import type { Tick, Upstream } from "../wire";
+import { pairSample } from "../store/pair";
+import type { Upstream } from "../wire";
 import { NOT_SECURE, PRESS_A_BUTTON, readController } from "./controller";
 import { createFrames, SOONEST } from "./frames";
 import { createLatency, type Measure } from "./latency";
@@ -33,8 +34,6 @@ export interface HandFlying {
   drag(stick: Deflection | null): void;
   /** Banks 5° more to the right (1) or left (−1), or levels the wings (0). */
   step(way: number): void;
-  /** Takes in what the flight says: what it got of the stick. */
-  hear(tick: Tick): void;
   /** Stops listening. */
   end(): void;
 }
@@ -62,6 +61,14 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
     return flight.source.value.kind === "live" && speedOf(flight) > 0;
   }
 
+  /** Own bank as it was last heard of [deg]. */
+  function bankNow(): number | null {
+    const { started } = flight.moment.value;
+    const sample = flight.heard.value?.tick.documents.findLast(({ kind }) => kind === "sample");
+    if (started === null || sample?.kind !== "sample") return null;
+    return pairSample(sample, started)?.pursuer.bank_deg ?? null;
+  }
+
   function way(ways: Readonly<Record<string, number>>): number {
     return [...held].reduce((sum, key) => sum + (ways[key] ?? 0), 0);
   }
@@ -76,9 +83,9 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
   function move(now: number): void {
     const byHand = together([byKeys, byPad, byController]);
     if (byHand.roll !== 0) wanted.value = null;
-    const bank = flight.moment.value.now?.pursuer.bank_deg;
+    const bank = wanted.value === null ? null : bankNow();
     const bySteps =
-      wanted.value === null || bank === undefined
+      wanted.value === null || bank === null
         ? NEUTRAL
         : { roll: toward(wanted.value, bank, speedOf(flight)), pitch: 0 };
     stick.value = isFlown() ? together([byHand, bySteps]) : NEUTRAL;
@@ -119,8 +126,7 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
   }
 
   function step(way: number): void {
-    const bank = wanted.value ?? flight.moment.value.now?.pursuer.bank_deg ?? 0;
-    wanted.value = way === 0 ? 0 : nextStep(bank, way);
+    wanted.value = way === 0 ? 0 : nextStep(wanted.value ?? bankNow() ?? 0, way);
     move(performance.now());
   }
 
@@ -149,6 +155,12 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
     signal: until,
   });
   requestAnimationFrame(frame);
+  const stopHearing = effect(() => {
+    const tick = flight.heard.value?.tick;
+    if (tick === undefined || !latency.heard(tick)) return;
+    // The picture is drawn in the next frame; what follows it comes when that is done.
+    requestAnimationFrame(() => setTimeout(() => latency.drawn(performance.now())));
+  });
 
   return {
     stick,
@@ -160,13 +172,9 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
       move(performance.now());
     },
     step,
-    hear(tick) {
-      if (!latency.heard(tick)) return;
-      // The picture is drawn in the next frame; what follows it comes when that is done.
-      requestAnimationFrame(() => setTimeout(() => latency.drawn(performance.now())));
-    },
     end() {
       listening.abort();
+      stopHearing();
       stick.value = NEUTRAL;
     },
   };

@@ -13,7 +13,7 @@ const FULL = 6;
 /** The next whole step from `bank`, to the right (+1) or left (−1). */
 export function nextStep(bank: number, way: number): number {
   const steps = Math.floor((way * bank + NEAR) / STEP) + 1;
-  return way * Math.min(MOST, STEP * steps);
+  return way * Math.min(MOST, STEP * steps) + 0; // no −0
 }
 
 /**
