@@ -10,7 +10,7 @@ from relguide.flying.airframe import Airframe, airframe
 from relguide.flying.envelope import FL310
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.flight.by_hand import COLUMNS
+from relguide.kernels.flight.by_hand import columns
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Body, Control, Drift, Limits
 from relguide.kernels.flight.guide import CONVERGE, Course, Progress, Task, act
 from relguide.kernels.flight.laws import Gains
@@ -79,7 +79,7 @@ def fly_second(
     count, steps = len(states), trace.shape[1] - 1
     fly_steps(
         states, limits, pilots, controls, programs, lengths, cursors, helds,
-        np.zeros((count, COLUMNS)), np.zeros((count, steps)), winds, t, dt, 0, steps, trace,
+        np.zeros((count, columns(dt))), np.zeros((count, steps)), winds, t, dt, 0, steps, trace,
         np.zeros((count, steps + 1, 2)), tallies,
     )  # fmt: skip
 

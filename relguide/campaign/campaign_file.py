@@ -72,12 +72,21 @@ ROUGH: Mapping[str, Distribution] = {
     "gusts_mps": Fixed(1.5),
 }
 """All that is not exact, at once: winds aloft are wrong by 3 to 8 m/s."""
+PILOTS: Mapping[str, Distribution] = {
+    "pilot_bandwidth_radps": Uniform(0.5, 1.5),
+    "pilot_delay_s": Uniform(0.15, 0.45),
+    "pilot_remnant": Uniform(0.01, 0.03),
+    "pilot_threshold_deg": Uniform(0.5, 1.5),
+    "pilot_reaction_s": Uniform(0.75, 2.25),
+}
+"""Within 50 % of the model's own, which are assumptions."""
 DERIVED: Mapping[str, Derived] = {
     "exact": Derived(("declared",), {}),
     "wind_error": Derived(("declared",), {"wind_error_mps": Normal(0.0, 5.0)}),
     "surveillance": Derived(("undeclared",), SEEN),
     "gusts": Derived(("declared",), {"gusts_mps": Uniform(0.0, 1.5)}),
     "mixed": Derived(("declared", "undeclared", "commands"), ROUGH),
+    "flight_director": Derived(("declared", "undeclared"), PILOTS),
 }
 """By name; to add one, a line. Its flights begin as those of its base with the same number."""
 KNOWN = (*FAMILIES, *DERIVED)

@@ -1,6 +1,7 @@
 """Flying a case, and its documents as one row of figures: all that a campaign knows of flying."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from math import hypot
 from time import thread_time
 
@@ -8,6 +9,7 @@ import numpy as np
 
 from relguide.campaign.case import Case
 from relguide.campaign.evasion import AHEAD, best_turn
+from relguide.campaign.hand_flying import with_autopilot
 from relguide.campaign.instant import EVERY, instant
 from relguide.campaign.losses import losses_of, warnings_of
 from relguide.campaign.paths import (
@@ -44,10 +46,14 @@ from relguide.units import DEG, Metre, Second
 
 
 def fly_case(case: Case) -> Row:
-    """Fly it. What guidance or the planner raises is passed on."""
+    """Fly it, by hand and by the autopilot. What guidance or the planner raises is passed on."""
     begun = thread_time()
     documents = tuple(documents_of(case))
-    return row_of(case, documents, thread_time() - begun)
+    row = row_of(case, documents, thread_time() - begun)
+    if case.scenario.by_hand is None:
+        return row
+    by_autopilot = replace(case, scenario=replace(case.scenario, by_hand=None))
+    return with_autopilot(row, documents, tuple(documents_of(by_autopilot)))
 
 
 def documents_of(case: Case, sample_period: Second = EVERY) -> Iterator[Document]:

@@ -85,6 +85,17 @@ class Row:
     cpu_s: float
     best_turn_share: float | None = None
     """What any turn begun at once keeps of d_min, for a flight that had no plan and lost it."""
+    autopilot_join_s: float | None = None
+    """When the autopilot joins in the same flight; `None` if it does not, or if it flew this one.
+    So are the next."""
+    autopilot_least_share: float | None = None
+    """Least separation of that flight [d_min]."""
+    within_bar_share: float | None = None
+    """Share of the time by hand in which the bank was within 2° of the commanded one."""
+    tube_m: float | None = None
+    """Largest distance by hand beside the path of the plan that was flown."""
+    off_autopilot_m: float | None = None
+    """The same, until joined, from the path that the autopilot flew."""
     error: str = ""
     """What it ended with, if not with its last document."""
 
@@ -92,6 +103,19 @@ class Row:
     def name(self) -> str:
         """As the command line takes it."""
         return f"{self.family} {self.number}"
+
+    @property
+    def late_share(self) -> float | None:
+        """How much later than the autopilot it joined, over the autopilot's time."""
+        if self.join_s is None or self.autopilot_join_s is None:
+            return None
+        return self.join_s / self.autopilot_join_s - 1.0
+
+    @property
+    def nearer_share(self) -> float | None:
+        """How much nearer than the autopilot it came to the leader [d_min]."""
+        least = self.autopilot_least_share
+        return None if least is None else least - self.least_share
 
     @property
     def avoidable(self) -> bool:
@@ -156,6 +180,17 @@ FIGURES = (
     Figure(name="off_forecast_m", heading="off the forecast, m"),
     Figure(name="along_error_m", heading="off along the route, following, m"),
     Figure(name="across_error_m", heading="off beside the route, following, m"),
+    Figure(name="late_share", heading="join after the autopilot's, %", decimals=2, scale=100.0),
+    Figure(name="nearer_share", heading="nearer than the autopilot, d_min", decimals=4),
+    Figure(
+        name="within_bar_share",
+        heading="within 2° of the bar, %",
+        decimals=1,
+        low_is_worse=True,
+        scale=100.0,
+    ),
+    Figure(name="tube_m", heading="beside the path by hand, m"),
+    Figure(name="off_autopilot_m", heading="off the autopilot's path, m"),
     Figure(name="fastest_mps", heading="fastest, m/s", decimals=1),
     Figure(name="cpu_s", heading="CPU, s", decimals=2),
 )

@@ -125,4 +125,6 @@ def _allowed(one: Pursuit, belief: Belief) -> MetrePerSecond:
     _, speed = ground_track(ahead, belief.drift)
     keeping = tas_for_ground_speed(own.heading, speed, belief.drift)
     room = apart - asked.buffered_separation
-    return float(closing_tas(room, keeping, asked.tas, regained(belief.limits, own), asked.gains))
+    return float(
+        closing_tas(room, keeping, asked.planned_tas, regained(belief.limits, own), asked.gains)
+    )

@@ -43,7 +43,7 @@ def mind_reaction(one: Pursuit, fleet: Fleet, events: Sequence[Event], t: Second
     """A pilot that is modelled takes a while to answer what was announced."""
     pilot = fleet.world.aircraft[one.pursuer].pilot
     if isinstance(pilot, Guided) and pilot.by_hand is not None and any(map(is_announced, events)):
-        fleet.react(one.pursuer, t + pilot.by_hand.reaction)
+        fleet.react(one.pursuer, t, pilot.by_hand.reaction)
 
 
 def is_announced(event: Event) -> bool:

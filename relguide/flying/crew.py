@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from typing import assert_never
 
-from relguide.flying.assigning import obey_assignment
 from relguide.flying.by_hand import obey_hands
 from relguide.flying.documents import Document
 from relguide.flying.fleet import Fleet
@@ -42,7 +41,7 @@ def obey_crew(one: Pursuit, command: CrewCommand, fleet: Fleet, t: Second) -> It
         case SetAutopilot() | SetDirector() | Stick():
             yield from obey_hands(one, command, fleet, t)
         case PursuerBank() | PursuerSpeed() | SetSpacing():
-            yield from obey_assignment(one, command, fleet, t)
+            one.asked = (*one.asked, command)  # guidance answers, as it plans anew
         case _:
             assert_never(command)
     for event in events:

@@ -109,7 +109,7 @@ def _reason(plan: Plan, committed: Committed, ahead: Forecast, assignment: Assig
             how.append(f"keeps {distance(assignment.buffered_separation)}")
         said.append(f"It {_listed(how)}: {_more(by_path)}.")
     if abs(by_speed) >= WORTH_A_WORD:
-        fast, slow = assignment.tas / KT, ahead.own[int(ahead.join_time), 5] / KT
+        fast, slow = assignment.planned_tas / KT, ahead.own[int(ahead.join_time), 5] / KT
         does = "slows" if slow < fast else "speeds up"
         how_late = _more(by_speed)
         said.append(f"It {does} from {fast:.0f} to {slow:.0f} kt before it joins: {how_late}.")

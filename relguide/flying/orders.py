@@ -278,6 +278,8 @@ def _as_recorded(angle: Radian) -> Radian:
     return angle
 
 
+NewTask = PursuerBank | PursuerSpeed | SetSpacing
+"""What a crew asks of its guidance."""
 LeaderCommand = LeaderHeading | LeaderSpeed | LeaderLevel | IntentKnown
 """What a leader does, or any other aircraft that is not guided."""
 CrewCommand = (

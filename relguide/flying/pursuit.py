@@ -14,6 +14,7 @@ from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
 from relguide.flying.logbook import PairNames
+from relguide.flying.orders import NewTask
 from relguide.flying.perception import Perceived, Perception
 from relguide.flying.queues import behind_head
 from relguide.flying.seen_others import SeenOther
@@ -134,8 +135,8 @@ class Pursuit:
     """Whether the autopilot flies; if not, the crew does by hand."""
     director: bool = False
     """Whether the flight director is on."""
-    selected_tas: MetrePerSecond = 0.0
-    """The speed that the crew has selected; 0 while guidance sets the speed [m/s]."""
+    asked: tuple[NewTask, ...] = ()
+    """What the crew asked of its guidance just now, in order."""
     lost: bool = False
     """Whether the separation is below d_min."""
     seen_others: tuple[SeenOther, ...] = ()
@@ -227,8 +228,10 @@ class Pursuit:
 
 
 def keep_margin(one: Pursuit, belief: Belief) -> None:
-    """Keep as much beside d_min as what is believed now is uncertain."""
+    """Keep as much beside d_min as what is believed now, and the crew's hand, are uncertain."""
     margin = belief.spread.margin
+    if not one.autopilot:
+        margin += one.assignment.settings.by_hand_margin
     if abs(margin - one.assignment.margin) > MARGIN_STEP:
         one.assignment = replace(one.assignment, margin=margin)
 

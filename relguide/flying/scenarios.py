@@ -28,6 +28,7 @@ from relguide.flying.amid_scenarios import crossing_stream, thunderstorm_line
 from relguide.flying.dispersion import random_situation
 from relguide.flying.envelope import level_for
 from relguide.flying.flight import DEFAULT_TYPE, Scenario
+from relguide.flying.lesson_scenarios import lesson_bar, lesson_raw, lesson_turn
 from relguide.flying.queue_scenarios import overtaking_queue, stream_of_five
 from relguide.flying.recordings.samples import DEFAULT_LEADER, INSTALL, load_sample
 from relguide.flying.tracks import RecordedTrack
@@ -267,6 +268,9 @@ TITLES = {
     "overtaking_queue": "A faster aircraft joins a queue",
     "crossing_stream": "A stream crosses the way",
     "thunderstorm_line": "A line of thunderstorms",
+    "lesson_bar": "Lesson 1: follow the bar",
+    "lesson_raw": "Lesson 2: converge without it",
+    "lesson_turn": "Lesson 3: the leader turns untold",
 }
 DESCRIPTIONS = {
     "fig_6a": "The leader turns right to 135° without announcement; the pursuer, 40 km behind and "
@@ -284,6 +288,11 @@ DESCRIPTIONS = {
     "crossing_stream": "Six aircraft in a row cross the way to the leader; the pursuer passes "
     "between two of them and keeps 5 NM from each.",
     "thunderstorm_line": "Three cells that move and grow lie in the way; the pursuer finds a gap.",
+    "lesson_bar": "A right turn, a straight, a left turn, flown by hand along the bars of the "
+    "flight director.",
+    "lesson_raw": "Two right turns and a straight, flown by hand from the display alone.",
+    "lesson_turn": "The leader turns left by 40° without a word; flown by hand, along bars that "
+    "lead to the new path.",
 }
 SCENARIOS: Mapping[str, NamedScenario] = {
     name: NamedScenario(
@@ -306,6 +315,9 @@ SCENARIOS: Mapping[str, NamedScenario] = {
             lambda: _named("thunderstorm_line", thunderstorm_line),
             _report_nothing,
         ),
+        ("lesson_bar", lambda: _named("lesson_bar", lesson_bar), _report_nothing),
+        ("lesson_raw", lambda: _named("lesson_raw", lesson_raw), _report_nothing),
+        ("lesson_turn", lambda: _named("lesson_turn", lesson_turn), _report_nothing),
     )
 }
 """All of them, by name."""

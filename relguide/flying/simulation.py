@@ -6,13 +6,14 @@ Everything else that flies a plan, live or not, iterates over these documents.
 """
 
 from collections.abc import Callable, Collection, Generator, Iterable, Iterator
+from dataclasses import replace
 from functools import partial
 from itertools import count
 from typing import get_args
 
 from relguide.flying.aircraft_ahead import mind_ahead, to_keep_clear_of, watch_ahead
 from relguide.flying.aircraft_documents import AircraftCard, LinkCard
-from relguide.flying.assigning import with_selected_speed
+from relguide.flying.assigning import obey_tasks
 from relguide.flying.belief import Belief
 from relguide.flying.braking import learn_braking
 from relguide.flying.by_hand import bars_of, mind_reaction
@@ -317,7 +318,9 @@ def _guide(
     yield from watch_ahead(one, belief)
     keep_margin(one, belief)
     fit_to_level(one, fleet)
-    one.memory, advice = guide(one.memory, belief, one.assignment)
+    yield from obey_tasks(one, pursuits, fleet, belief, guide.reassign, t)
+    belief = replace(belief, limits=one.assignment.can(belief.limits))
+    one.memory, advice = guide.advise(one.memory, belief, one.assignment)
     advice = mind_ahead(one, pursuits, belief, advice)
     for event in advice.events:
         document = event_document(t, one.watched, event)
@@ -331,7 +334,7 @@ def _guide(
         one.metrics = one.metrics._replace(joined=True, join_time=t)
     one.advice = advice
     yield from fan(one, belief)
-    fleet.control(one.pursuer, with_selected_speed(one, advice.control))
+    fleet.control(one.pursuer, advice.control)
     level = follow_level(one.memory, belief, one.assignment)
     if level is not None:
         fleet.change_level(one.pursuer, level.to, level.rate)

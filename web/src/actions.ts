@@ -10,7 +10,9 @@ import {
   readFlight,
   readRecord,
 } from "./api";
-import { referencesIn, splitReference } from "./compare/references";
+import type { Comparing } from "./compare/comparing";
+import { referencesIn } from "./compare/references";
+import type { Crew } from "./hands/crew";
 import type { Actions, Recording, Session } from "./session";
 import type { FlightStore } from "./store/flight";
 import type { Guidance } from "./store/states";
@@ -41,8 +43,6 @@ const FIRST_SCENARIO = "fig_6b";
 const RATE = { off: 1, engaged: 10 } as const;
 /** A flight that is younger was begun by this page [s]. */
 const BEGUN = 2;
-/** Two flights are shown first this long after the leader has begun to turn: they begin to differ [s]. */
-const TURNING = 6;
 /** A server that does not answer is asked again this often [ms]. */
 const ASK_AGAIN = 3000;
 
@@ -84,6 +84,8 @@ export function createActions(
   let again: ReturnType<typeof setTimeout> | null = null;
   let attempt: () => void = () => undefined;
 
+  let crew: Promise<Crew> | null = null;
+
   /** How far new flights are engaged: `engaged` in the address says so from the start. */
   let engagement: keyof typeof RATE = "off";
   /** When this page last gave a command [ms]. */
@@ -117,11 +119,11 @@ export function createActions(
     lookAs(session, address);
     const [first, other] = referencesIn(address);
     if (first !== undefined && other !== undefined) {
-      await compare(first, other, readClockText(address.get("t") ?? ""));
+      await (await comparing()).compare(first, other, readClockText(address.get("t") ?? ""));
       return;
     }
     session.comparison.other.value = null;
-    if (first !== undefined) void compareWith(first);
+    if (first !== undefined) void comparing().then((both) => both.compareWith(first));
     if (joined === null) {
       await begin(requestOf(address.get("scenario") ?? FIRST_SCENARIO));
       return;
@@ -221,57 +223,6 @@ export function createActions(
     return true;
   }
 
-  /** Shows two flights beside each other, at flight time `t` [s], or else when the leader turns. */
-  async function compare(first: string, other: string, t: number | null): Promise<void> {
-    const since = performance.now();
-    const wait = () => {
-      const seconds = Math.round((performance.now() - since) / 1000);
-      say("sending", `Flying both to their end… ${seconds === 0 ? "" : `${seconds} s`}`);
-    };
-    wait();
-    const waiting = setInterval(wait, 1000);
-    const { fetchReference, readCompared } = await import("./compare/opening");
-    const [shown, beside] = await Promise.all([fetchReference(first), readCompared(other)]);
-    clearInterval(waiting);
-    const refused = [shown, beside].find((each) => each.kind === "refused");
-    if (shown.kind === "refused" || beside.kind === "refused") {
-      noteComparison([]);
-      const isEmpty = session.status.value === null && session.recording.value === null;
-      if (isEmpty) await begin(requestOf(FIRST_SCENARIO));
-      say("refused", refused?.kind === "refused" ? refused.sentence : "");
-      return;
-    }
-    const [kind, id] = splitReference(first);
-    if (!(await replay(shown.value, { id, from: kind === "record" ? "record" : "scenario" })))
-      return;
-    session.comparison.other.value = beside.compared;
-    noteComparison(kind === "record" ? [other] : [first, other]);
-    const turn = session.history().events.find(({ kind }) => kind === "leader_changed");
-    if (t !== null || turn !== undefined) own.moves.seek(t ?? (turn?.t_s ?? 0) + TURNING);
-    say("done", "Both are shown: one solid, the other dashed.");
-  }
-
-  async function compareWith(source: string | File): Promise<void> {
-    say("sending", "Reading the other flight…");
-    const { readCompared } = await import("./compare/opening");
-    const read = await readCompared(source);
-    if (read.kind === "refused") {
-      say("refused", read.sentence);
-      return;
-    }
-    session.comparison.other.value = read.compared;
-    noteComparison(read.compared.reference === null ? [] : [read.compared.reference]);
-    say("done", `Beside it: ${read.compared.title}, dashed.`);
-  }
-
-  /** Notes in the address what is compared. */
-  function noteComparison(references: readonly string[]): void {
-    const address = new URL(location.href);
-    if (references.length === 0) address.searchParams.delete("compare");
-    else address.searchParams.set("compare", references.join(","));
-    history.replaceState(history.state, "", address);
-  }
-
   /** Notes in the address which flight is shown: going back shows the one before. */
   function visit(id: string | null): void {
     const address = new URL(location.href);
@@ -309,6 +260,8 @@ export function createActions(
   });
 
   function requestOf(scenario: string): FlightRequest {
+    if (scenario.startsWith("lesson"))
+      return { scenario, rate: 1, paused: true, engagement: "engaged" };
     return { scenario, rate: RATE[engagement], engagement };
   }
 
@@ -431,6 +384,20 @@ export function createActions(
     void command(direction === undefined ? body : { ...body, direction }, `${text}…`, `${text}.`);
   }
 
+  /** What shows two flights beside each other is fetched when it first does. */
+  async function comparing(): Promise<Comparing> {
+    const instead = () => begin(requestOf(FIRST_SCENARIO));
+    const { createComparing } = await import("./compare/comparing");
+    return createComparing({ session, say, replay, seek: own.moves.seek, instead });
+  }
+
+  /** What only a crew does that flies by hand, or selects for itself, is fetched when it first does. */
+  function byCrew(act: (crew: Crew) => void): void {
+    const means = { session, command, say, refusal: own.refusal, stream: () => stream };
+    crew ??= import("./hands/crew").then(({ createCrew }) => createCrew(means));
+    void crew.then(act);
+  }
+
   return {
     open,
     start: (scenario) => void begin(requestOf(scenario)),
@@ -465,6 +432,11 @@ export function createActions(
       const body = { command: "pursuer_heading", heading_deg: wrap360(heading) } as const;
       void command(body, `${text}…`, `${text}.`);
     },
+    setAutopilot: (on) => byCrew((crew) => crew.setAutopilot(on)),
+    setDirector: (on) => byCrew((crew) => crew.setDirector(on)),
+    selectBank: (bank) => byCrew((crew) => crew.selectBank(bank)),
+    selectSpeed: (tas) => byCrew((crew) => crew.selectSpeed(tas)),
+    setSpacing: (spacing) => byCrew((crew) => crew.setSpacing(spacing)),
     setLeaderData(received) {
       const text = received ? "Leader's reports received" : "Leader's reports lost";
       void command({ command: "leader_data", received }, `${text}…`, `${text}.`);
@@ -513,11 +485,8 @@ export function createActions(
       });
     },
     openFile: (file) => void replay(file, { id: file.name, from: "file" }),
-    compare: (first, other) => void compare(first, other, null),
-    compareWith: (other) => void compareWith(other),
-    endComparison() {
-      session.comparison.other.value = null;
-      noteComparison([]);
-    },
+    compare: (first, other) => void comparing().then((both) => both.compare(first, other, null)),
+    compareWith: (other) => void comparing().then((both) => both.compareWith(other)),
+    endComparison: () => void comparing().then((both) => both.endComparison()),
   };
 }

@@ -40,6 +40,14 @@ const KEYS: Record<string, (session: Session, actions: Actions) => Act> = {
   c: (_, actions) => () => actions.engage("armed"),
   e: (_, actions) => () => actions.engage("engaged"),
   x: (_, actions) => () => actions.engage("off"),
+  h:
+    ({ hands }, actions) =>
+    () =>
+      actions.setAutopilot(hands.value !== null),
+  b:
+    ({ flight }, actions) =>
+    () =>
+      actions.setDirector(flight.moment.value.now?.director !== true),
   t: (session) => (isMap(session) ? null : () => chooseNext(session)),
   g: ({ chartsOpen }) => set(chartsOpen, !chartsOpen.value),
   i: ({ pfdOpen }) => set(pfdOpen, !pfdOpen.value),

@@ -11,6 +11,7 @@ import { velocity } from "./geometry";
 import { type Layout, layoutOf } from "./nd/view";
 import type { Session } from "./session";
 import { type FlightStore, READING_PERIOD, speedOf } from "./store/flight";
+import { isEvent } from "./store/history";
 import type { PairSample } from "./store/pair";
 import { DEG } from "./units";
 import type { AircraftSample, Tick } from "./wire";
@@ -108,5 +109,5 @@ function overGround({ ground_speed_mps, track_deg }: AircraftSample) {
 }
 
 function isNews({ documents }: Tick): boolean {
-  return documents.some(({ kind }) => kind !== "sample");
+  return documents.some(isEvent);
 }

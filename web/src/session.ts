@@ -3,6 +3,7 @@
 import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
 import { type Comparison, createComparison } from "./compare/compared";
+import type { HandFlying } from "./hands/hand-flying";
 import { createEditor, type Editor } from "./map/editor";
 import { createPlanners, type Planners } from "./planners";
 import { createHistory, type History } from "./store/history";
@@ -75,6 +76,9 @@ export interface Session {
   readonly comparison: Comparison;
   /** Whether the flight is drawn over time in the scene's place. */
   readonly chartsOpen: Signal<boolean>;
+  /** Whether it is told there how the flight went, and the stretches in which that says time was lost. */
+  readonly debriefOpen: Signal<boolean>;
+  readonly lost: Signal<readonly { readonly from: number; readonly to: number }[]>;
   /** Four planners side by side. */
   readonly planners: Planners;
   /** Whether the primary flight display was asked for; it is shown in any case while the crew flies. */
@@ -89,6 +93,8 @@ export interface Session {
   readonly captions: Signal<boolean>;
   /** Whether alerts are heard. */
   readonly sound: Signal<boolean>;
+  /** The stick, while this page flies own ship by hand. */
+  readonly hands: Signal<HandFlying | null>;
   /** What a first start has yet to prepare; null when that is done. */
   readonly firstStart: Signal<Readiness | null>;
 }
@@ -103,6 +109,19 @@ export interface Actions {
   engage(engagement: Engagement): void;
   /** Selects a heading for own ship [deg], while guidance is not engaged. */
   ownHeading(heading: number): void;
+  /** Gives own ship to the autopilot, or takes control from it: this page then flies by hand. */
+  setAutopilot(on: boolean): void;
+  /** Switches the flight director's bars. */
+  setDirector(on: boolean): void;
+  /** Selects the bank that plans turn with [deg]. */
+  selectBank(bank: number): void;
+  /** Selects own true airspeed [m/s]; null leaves it to guidance. */
+  selectSpeed(tas: number | null): void;
+  /** Changes D, d_min or both. */
+  setSpacing(spacing: {
+    readonly slot_distance_m?: number;
+    readonly min_separation_m?: number;
+  }): void;
   /** Lets the leader's reports be received, or not. */
   setLeaderData(received: boolean): void;
   play(): void;
@@ -162,6 +181,8 @@ export function createSession(
     comparison,
     planners,
     chartsOpen: signal(false),
+    debriefOpen: signal(false),
+    lost: signal([]),
     scenarios: signal([]),
     status: signal(null),
     feedback: signal({ kind: "none" }),
@@ -177,6 +198,7 @@ export function createSession(
     distinctColours: signal(false),
     captions: signal(true),
     sound: signal(true),
+    hands: signal(null),
     firstStart,
   };
 }

@@ -1,7 +1,7 @@
 /** The stream of ticks: one WebSocket, opened again with growing patience when it breaks. */
 
 import type { Link } from "./store/types";
-import type { Tick } from "./wire";
+import type { ControlAnswer, Tick, Upstream } from "./wire";
 
 /** Close code of a server that speaks another version of the wire. */
 export const OTHER_VERSION = 4400;
@@ -22,6 +22,10 @@ export interface StreamEvents {
 }
 
 export interface Stream {
+  /** Told who has control: set by what has asked for it. */
+  answered: ((answer: ControlAnswer) => void) | null;
+  /** Sends a frame; false while there is no link. */
+  send(frame: Upstream): boolean;
   /** Tries again now instead of waiting. */
   retry(): void;
   /** Ends it: no event comes after. */
@@ -43,7 +47,9 @@ export function openStream(url: string, protocol: string, events: StreamEvents):
     opened.onopen = () => events.link("open");
     opened.onmessage = (message: MessageEvent<string>) => {
       failures = 0; // only data prove the link: a server may accept and close at once
-      events.tick(JSON.parse(message.data) as Tick);
+      const frame = JSON.parse(message.data) as Tick | ControlAnswer;
+      if (frame.kind === "control") stream.answered?.(frame);
+      else events.tick(frame);
     };
     opened.onclose = (closed) => {
       if (socket !== opened) return;
@@ -60,8 +66,13 @@ export function openStream(url: string, protocol: string, events: StreamEvents):
     };
   }
 
-  open();
-  return {
+  const stream: Stream = {
+    answered: null,
+    send(frame) {
+      if (socket?.readyState !== WebSocket.OPEN) return false;
+      socket.send(JSON.stringify(frame));
+      return true;
+    },
     retry() {
       if (timer === null) return;
       clearTimeout(timer);
@@ -75,6 +86,8 @@ export function openStream(url: string, protocol: string, events: StreamEvents):
       open?.close();
     },
   };
+  open();
+  return stream;
 }
 
 /** The ws: or wss: address of a path on the page's own server. */

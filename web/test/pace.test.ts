@@ -5,6 +5,7 @@ import { layoutOf } from "../src/nd/view";
 import { drawPictures, lifetime, patience } from "../src/pace";
 import { createSession } from "../src/session";
 import { createFlightStore, type FlightStore } from "../src/store/flight";
+import type { Document } from "../src/wire";
 import { aircraft, modeChanged, pairAt, planChanged, STARTED, sample, tick } from "./samples";
 
 const AT_20 = layoutOf("ARC", 20);
@@ -111,4 +112,23 @@ test("a hidden page is given no frames, and hears all the same", () => {
   expect(store.flight.moment.value.sample?.t_s).toBe(1);
   hidden.mockRestore();
   vi.unstubAllGlobals();
+});
+
+test("a stick that moves is no news for the display: 20 orders a second draw it no oftener", () => {
+  const stick = { kind: "stick", roll: 0.5, pitch: 0, ident: "" } as const;
+  const drawsOf = (orders: readonly Document[]) => {
+    const { receive, at } = drawn();
+    const before = at.length;
+    for (let t = 1; t < 2; t += 0.05) {
+      receive(
+        tick(t, [...orders.map((each) => ({ ...each, t_s: t })), sample(t)]),
+        performance.now(),
+      );
+      vi.advanceTimersByTime(50);
+    }
+    return at.length - before;
+  };
+  const calm = drawsOf([]);
+  expect(drawsOf([{ kind: "command_given", t_s: 1, command: stick }])).toBe(calm);
+  expect(drawsOf([modeChanged(1)])).toBeGreaterThan(calm);
 });

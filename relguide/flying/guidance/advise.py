@@ -156,7 +156,7 @@ def _stay_or_change(
     """On a committed path: go on, unless the leader moved the slot, or another path is better."""
     settings, committed, t = assignment.settings, memory.committed, belief.t
     if committed is None:
-        return _plan_again(memory, belief, assignment, planner)
+        return _plan_again(memory, belief, assignment, planner, reason="assignment_changed")
     committed, right = place_on(committed, belief, memory.progress.s)
     memory = memory._replace(committed=committed)
     now = memory.leader  # noticed this second
@@ -209,7 +209,7 @@ def _plan_if_sooner(
     """
     until = max(committed.due, belief.t) + BRAKES_FOR
     ahead = forecast(belief, assignment, memory.progress, committed.course, until=until)
-    least, _ = ahead.least(belief.t)
+    least = committed.kept(ahead, belief.t, assignment)
     lost = keeps_clear(ahead, belief, assignment) is not None
     if not ahead.joins or least < assignment.kept_separation or lost:
         return _plan_again(memory, belief, assignment, planner, reason=reason)
@@ -273,7 +273,7 @@ def _plan_again(
     message = f"No plan: holding a safe heading. {found.answer.message}"
     memory, news = enter(memory, belief, "heading", message)
     out = clear_way(memory, belief, assignment)
-    tas = out.tas if out.tas < belief.own.tas else assignment.tas
+    tas = out.tas if out.tas < belief.own.tas else assignment.planned_tas
     progress = Progress(NUMBERS["heading"], 0.0, out.heading, tas)
     return memory._replace(progress=progress, committed=None, forecast=None), [*events, *news]
 
@@ -344,7 +344,7 @@ def _plan_around(
     if belief.t - memory.avoided < (settings.retry if near else settings.ask_every):
         return memory, []
     found = propose(belief, assignment, memory.committed, planner)
-    memory = memory._replace(avoided=belief.t, in_the_way=_what_it_did(pressing, belief))
+    memory = memory._replace(avoided=belief.t, because=_what_it_did(pressing, belief))
     memory, events = count_refusal(memory, found)
     if isinstance(found, Proposal):
         return fly_proposal(memory, belief, assignment, found, "traffic", events)
@@ -379,7 +379,7 @@ def _replan_or_escape(
             reason: PlanReason = "separation"
             if pressing is not None:
                 reason = "traffic"
-                memory = memory._replace(in_the_way=_what_it_did(pressing, belief))
+                memory = memory._replace(because=_what_it_did(pressing, belief))
             memory, news = fly_proposal(memory, belief, assignment, found, reason, events)
             return memory, news
     if pressing is not None:

@@ -26,6 +26,7 @@ PlanReason = Literal[
     "intent_withdrawn",
     "braking",
     "traffic",
+    "assignment_changed",
 ]
 """Why a new plan was made."""
 AlertLevel = Literal["advisory", "caution", "warning"]
@@ -186,13 +187,14 @@ def leader_change(
     return None
 
 
-def reason_sentence(reason: PlanReason, belief: Belief, in_the_way: str = "") -> str:
+def reason_sentence(reason: PlanReason, belief: Belief, because: str = "") -> str:
     """Why there is a new plan, without a full stop.
 
     Args:
         reason: of the plan.
         belief: what is known now.
-        in_the_way: with the reason `traffic`: what the others did, as a sentence without full stop.
+        because: with the reason `traffic`, what the others did; with `assignment_changed`, what the
+            crew asked for: as a sentence without full stop.
     """
     match reason:
         case "engaged":
@@ -220,8 +222,8 @@ def reason_sentence(reason: PlanReason, belief: Belief, in_the_way: str = "") ->
             return "The leader's intent is no longer known"
         case "braking":
             return "The aircraft slows down otherwise than its data say"
-        case "traffic":
-            return in_the_way
+        case "traffic" | "assignment_changed":
+            return because
 
 
 def summary(plan: Plan, joins_in: Second) -> str:

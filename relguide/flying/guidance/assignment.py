@@ -1,9 +1,10 @@
-"""What a pursuer was asked to do, and with what: fixed for the flight."""
+"""What a pursuer was asked to do, and with what: until its crew asks for something else."""
 
 from dataclasses import dataclass
 from functools import cached_property
 
 from relguide.flying.guidance.settings import Settings
+from relguide.kernels.flight.flight_records import Limits
 from relguide.kernels.flight.guide import Gate, Task
 from relguide.kernels.flight.laws import Gains
 from relguide.units import Metre, MetrePerSecond, Radian, Second
@@ -36,7 +37,23 @@ class Assignment:
     """Time behind the leader to keep [s]; 0 where a distance is kept."""
     settings: Settings
     margin: Metre = 0.0
-    """What is kept beside d_min for what is not certain [m]."""
+    """What is kept beside d_min for what is not certain, as where a crew flies by hand [m]."""
+    selected_tas: MetrePerSecond = 0.0
+    """The speed that the crew has selected; 0 while guidance sets the speed [m/s]."""
+
+    @property
+    def planned_tas(self) -> MetrePerSecond:
+        """What plans fly at: the speed that the crew has selected, or else V_P [m/s]."""
+        return self.selected_tas or self.tas
+
+    def can(self, limits: Limits) -> Limits:
+        """What an aircraft can do that flies the speed which its crew has selected, and no other.
+
+        Args:
+            limits: of the aircraft.
+        """
+        tas = self.selected_tas
+        return limits._replace(min_tas=tas, max_tas=tas) if tas else limits
 
     @cached_property
     def planned_bank(self) -> Radian:
@@ -74,4 +91,6 @@ class Assignment:
     @cached_property
     def task(self) -> Task:
         """As the kernels take it."""
-        return Task(self.tas, self.slot_distance, self.aim, self.spacing, self.buffered_separation)
+        return Task(
+            self.planned_tas, self.slot_distance, self.aim, self.spacing, self.buffered_separation
+        )

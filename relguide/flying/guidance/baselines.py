@@ -135,7 +135,9 @@ def _tas(chase: Chase, belief: Belief, assignment: Assignment) -> MetrePerSecond
     if chase.in_front > 0.0:
         to_slot = chase.east * sin(own.heading) + chase.north * cos(own.heading)
     keeping = tas_for_ground_speed(own.heading, chase.speed, belief.drift)
-    return closing_tas(to_slot, keeping, assignment.tas, regained(belief.limits, own), gains)
+    return closing_tas(
+        to_slot, keeping, assignment.planned_tas, regained(belief.limits, own), gains
+    )
 
 
 def _along_trail(memory: Memory, belief: Belief, assignment: Assignment) -> Act:

@@ -115,6 +115,9 @@ class Memory(NamedTuple):
     """`None` as above."""
     proposed: Announced | None
     """The proposal that stands; `None` if there is none, or guidance is engaged."""
+    reoffered: str
+    """How the proposal is another one than was accepted, as a sentence without full stop; empty if
+    it is not."""
     pending: PlanReason | None
     """Why there is a plan that was not announced yet; `None` if there is none."""
     asked: Second
@@ -133,8 +136,8 @@ class Memory(NamedTuple):
     """The alerts that stand on others, by ident."""
     avoided: Second = LONG_AGO
     """When a plan was last asked for because another came in the way, flight time [s]."""
-    in_the_way: str = ""
-    """What that one did, as a sentence without full stop."""
+    because: str = ""
+    """What that one did, or the crew asked for last, as a sentence without full stop."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -188,6 +191,7 @@ def begin(belief: Belief, engagement: Engagement = "engaged") -> Memory:
         announced=None,
         promise=None,
         proposed=None,
+        reoffered="",
         pending="engaged",
         asked=LONG_AGO,
         missing=None,

@@ -33,6 +33,10 @@ UNABLE: dict[Reason, UnableReason] = {
     Reason.TRAFFIC: "traffic",
 }
 """Why guidance is unable without a plan; for all other reasons: `separation`."""
+FRESH: tuple[PlanReason, ...] = (
+    "engaged", "resumed", "separation", "better_plan", "assignment_changed",
+)  # fmt: skip
+"""A plan made for one of these is news, wherever it leads."""
 SHARES = (0.33, 0.67, 1.0)
 """Where along their durations two paths are compared."""
 
@@ -59,11 +63,11 @@ def fly_proposal(
     fresh = is_news(memory, belief, assignment, committed, shown.trajectory, reason)
     announced = fresh and (
         memory.announced is None
-        or reason in ("separation", "traffic", "engaged", "resumed")
+        or reason in ("separation", "traffic", "assignment_changed", "engaged", "resumed")
         or may_speak(memory, belief, assignment)
     )
     joins = committed.joins_at(committed.forecast)
-    why = reason_sentence(reason, belief, memory.in_the_way)
+    why = reason_sentence(reason, belief, memory.because)
     text = f"{why}: {summary(shown, joins - belief.t)}."
     said = NewPlan(
         committed=committed, shown=shown, reason=reason, message=text, announced=announced
@@ -111,7 +115,7 @@ def is_news(
 ) -> bool:
     """Whether the path or its time is not what a crew was shown."""
     settings, last = assignment.settings, memory.announced
-    if last is None or reason in ("engaged", "resumed", "separation", "better_plan"):
+    if last is None or reason in FRESH:
         return True
     if memory.pending is not None:
         return True
@@ -143,7 +147,7 @@ def announce_pending(
         return memory, []
     shown = shown_rest(committed, belief, assignment)
     joins = committed.joins_at(memory.forecast or committed.forecast)
-    why = reason_sentence(reason, belief, memory.in_the_way)
+    why = reason_sentence(reason, belief, memory.because)
     text = f"{why}: {summary(shown, joins - belief.t)}."
     said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
     pause = assignment.settings.announce_after

@@ -22,7 +22,7 @@ def situation_now(belief: Belief, assignment: Assignment) -> Situation:
         x=own.x,
         y=own.y,
         heading=wrap(own.heading),
-        tas=assignment.tas,
+        tas=assignment.planned_tas,
         max_bank=assignment.planned_bank,
     )
     leader = belief.leader_after(0.0)

@@ -34,6 +34,8 @@ def order_engagement(memory: Memory, belief: Belief, to: Engagement) -> tuple[Me
     """Do what the crew orders, or say why not."""
     now = memory.engagement
     why = refusal(now, to, proposed=memory.proposed is not None)
+    if why and to == "engaged" and memory.reoffered:
+        why = f"{memory.reoffered}: accept it again first."
     if why:
         return memory, [EngagementChange(engagement=now, previous=now, message=why)]
     message = {
@@ -50,8 +52,26 @@ def order_engagement(memory: Memory, belief: Belief, to: Engagement) -> tuple[Me
         return memory._replace(engagement=to, asked=LONG_AGO), [said]
     proposed = memory.proposed if to == "armed" else None
     asked = memory.asked if to == "armed" else LONG_AGO
-    memory = memory._replace(engagement=to, proposed=proposed, asked=asked, missing=None)
+    memory = memory._replace(
+        engagement=to, proposed=proposed, reoffered="", asked=asked, missing=None
+    )
     return memory, [said]
+
+
+def offer_again(memory: Memory, how: str) -> tuple[Memory, list[Event]]:
+    """The proposal is not the one that was accepted: it is offered, to be accepted by one order.
+
+    Args:
+        memory: as it is, armed.
+        how: it is another one, as a sentence without full stop.
+    """
+    change = EngagementChange(
+        engagement="designated", previous="armed", message=f"{how}: accept it again."
+    )
+    memory = memory._replace(
+        engagement="designated", proposed=None, reoffered=how, missing=None, asked=LONG_AGO
+    )
+    return memory, [change]
 
 
 def stop(memory: Memory, belief: Belief, to: Engagement, why: str) -> tuple[Memory, list[Event]]:
@@ -70,6 +90,7 @@ def stop(memory: Memory, belief: Belief, to: Engagement, why: str) -> tuple[Memo
         pending="engaged",
         asked=LONG_AGO,
         proposed=None,
+        reoffered="",
         missing=None,
         unable=None,
     )

@@ -2,9 +2,12 @@
 
     stick → rate of roll → roll mode;   bar = (φ_c − φ) through 1/(0.5 s + 1)
 
-The pilot is the crossover model: with the aircraft it makes ω_c e^(−τ s)/s of the error that the
-bar shows. Its lead takes back the bar's own lag; to the answer that it would give it adds remnant,
-noise in proportion to the errors that it has seen, through 1/(1 s + 1) (McRuer and Krendel, 1974).
+The pilot is the crossover model. It sees the bar, and its lead takes back the bar's lag; its stick
+is ω_c e^(−τ s) of the error, and the aircraft makes bank of it:
+
+    Y_p Y_c = ω_c e^(−τ s)/s · 1/(0.5 s + 1)
+
+`flying/pilot_model.py` says where the constants come from.
 """
 
 from math import exp, pi, sqrt
@@ -15,15 +18,16 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.autopilot import ROLL_KD, ROLL_KP
 from relguide.kernels.flight.flight_records import Body, Limits
 
-STICK, BAR, BANDWIDTH, LAG, REMNANT, THRESHOLD, REACTS_AT, NOISE, SQUARE, NEXT = range(10)
+STICK, BAR, BANDWIDTH, LEAD, LAG, REMNANT, THRESHOLD, REACTS_AT, NOISE, SQUARE, NEXT = range(11)
 """Columns of `hands`: the stick, −1 … 1, right positive; the roll bar [rad]. Of the pilot: ω_c
-[rad/s]; τ in steps; variance of the remnant over that of the errors; the error that it lets stand
-[rad]; the flight time from which on it answers [s]. What it remembers: the remnant [rad], the mean
-square of the errors [rad²], and which of the errors that follow is the oldest."""
-ERRORS = 10
+[rad/s]; its lead on the rate of roll [s]; τ in steps; variance of the remnant over that of the
+errors; the error that it lets stand [rad]; the flight time from which on it answers [s]. What it
+remembers: the remnant [rad], the mean square of the errors [rad²], and where the next of them is
+kept."""
+ERRORS = 11
 """From this column on the last errors of the bank [rad]: as many as fit."""
-COLUMNS = ERRORS + 40
-"""Of `hands`: errors of 2 s at 20 steps a second."""
+REMEMBERED = 2.0
+"""So long errors are kept [s]."""
 BAR_TIME = 0.5
 """Of the bar's smoothing [s]."""
 HAND_BANK = 45.0 * pi / 180.0
@@ -52,25 +56,29 @@ def smooth_bar(hand: FloatArray, error: float, dt: float) -> float:
 
 @njit(cache=True, nogil=True)
 def follow_bar(
-    hand: FloatArray, error: float, white: float, limits: Limits, t: float, dt: float
+    hand: FloatArray, before: float, body: Body, white: float, limits: Limits, t: float, dt: float
 ) -> float:
-    """The stick of a pilot that sees an error of the bank; kept in the row with what it remembers.
+    """The stick of a pilot that sees the roll bar; kept in the row with what it remembers.
 
     Args:
-        hand: its row.
-        error: commanded bank less bank now [rad].
+        hand: its row, with the bar as it is now.
+        before: the bar dt ago [rad].
+        body: the aircraft.
         white: a draw of the standard normal distribution.
         limits: what the aircraft can do.
         t: flight time [s].
         dt: since the last call [s].
     """
-    fit = COLUMNS - ERRORS
-    newest = int(hand[NEXT])
-    hand[ERRORS + newest] = error
+    kept = exp(-dt / BAR_TIME)
+    error = (hand[BAR] - kept * before) / (1.0 - kept)
+    fit = len(hand) - ERRORS
+    newest, late = int(hand[NEXT]), int(hand[LAG])
+    hand[ERRORS + newest] = error - hand[LEAD] * body.roll_rate
     hand[NEXT] = (newest + 1) % fit
-    seen = hand[ERRORS + (newest - int(hand[LAG])) % fit]
-    share = dt / SEEN_FOR
-    hand[SQUARE] += share * (seen * seen - hand[SQUARE])
+    seen = hand[ERRORS + (newest - late) % fit]
+    earlier = hand[ERRORS + (newest - late - 1) % fit]
+    seen += (hand[LAG] - late) * (earlier - seen)
+    hand[SQUARE] += dt / SEEN_FOR * (seen * seen - hand[SQUARE])
     keeps = exp(-dt / REMNANT_TIME)
     spread = sqrt(hand[REMNANT] * hand[SQUARE] * (1.0 - keeps * keeps))
     hand[NOISE] = keeps * hand[NOISE] + spread * white
@@ -82,3 +90,8 @@ def follow_bar(
     wanted = hand[BANDWIDTH] * (seen + hand[NOISE]) / limits.max_roll_rate
     hand[STICK] = min(max(wanted, -1.0), 1.0)
     return float(hand[STICK])
+
+
+def columns(step: float) -> int:
+    """How many columns `hands` has for a step of the integration [s]."""
+    return ERRORS + round(REMEMBERED / step)

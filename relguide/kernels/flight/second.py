@@ -61,7 +61,7 @@ def fly_steps(
         lengths: how many pieces each declared. shape (n,)
         cursors: the piece each is flying, kept up to date. shape (n,)
         helds: headings before the first piece [rad]. shape (n,)
-        hands: the bars, and the hands of those that are flown by them. shape (n, `COLUMNS`)
+        hands: the bars, and the hands of those that are flown by them. shape (n, `columns(dt)`)
         whites: draws of the standard normal distribution, read for pilots that follow a bar.
             shape (n, steps)
         winds: what moves each, now and after each step, gusts and all [m/s, east and north].
@@ -96,7 +96,7 @@ def fly_steps(
                 bars[i, k + 1, 1] = smooth_bar(hands[i], bank - body.bank, dt)
                 roll = aileron(bank, body, can)
                 if pilots[i] == BY_BAR:
-                    follow_bar(hands[i], bank - body.bank, whites[i, k], can, t + k * dt, dt)
+                    follow_bar(hands[i], bars[i, k, 1], body, whites[i, k], can, t + k * dt, dt)
                 if pilots[i] != GUIDED:
                     roll = roll_by_stick(hands[i, STICK], body, can)
                 after = roll_step(body, roll, integral, control.tas, can, wind, dt)

@@ -165,7 +165,7 @@ class LiveFleet:
         due = loop.time()
         while True:
             for flight in list(self):
-                flight.tick()
+                flight.beat()
             # Late by more than a tick, e.g. after the machine slept: continue from now.
             due = max(due + period, loop.time() - period)
             await asyncio.sleep(due - loop.time())

@@ -7,10 +7,13 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from relguide.contract.places import UNANCHORED, Anchor
+from relguide.contract.upstream import Upstream
 from relguide.contract.wire import tick
-from relguide.flying.documents import Document, Sample
+from relguide.flying.documents import CommandGiven, Document, Sample
 from relguide.flying.orders import Command
 from relguide.planning.frames import LocalPlane
+from relguide_server.flights.control import Control, Standing
+from relguide_server.flights.hands import Hands
 from relguide_server.flights.history import History
 from relguide_server.flights.pace import Pace
 from relguide_server.flights.stream import FLIGHT_BROKEN, FLIGHT_GONE, StreamClient
@@ -24,6 +27,10 @@ from relguide_server.scene.stage import SceneStage
 LANDING = 1.0
 """How long the thread of a flight may take to end [s]: it looks at each step, and when it plans it
 comes to its deadline."""
+CLOSEST = 0.03
+"""Between two ticks of a flight that is flown by hand: such a one is shown at once [s]."""
+SILENT = 0.1
+"""After so long it ticks all the same, e.g. while it is paused [s]."""
 Source = Callable[[Callable[[float], Iterable[Command]]], Iterator[Document]]
 """A flight to be flown: takes a function that is polled for commands at each step, and gives the
 flight's documents in order."""
@@ -76,7 +83,11 @@ class LiveFlight:
         self._metrics = metrics
         self._source = source
         self._commands: deque[Command] = deque()
+        self._hands = Hands()
+        self.control = Control(self._hands)
         self._inbox = Inbox()
+        self._shown_at = self.last_seen
+        self._showing = False
         self._stage: SceneStage | None = None
         self._flying = asyncio.Event()
         self._measured: tuple[float, float, bool] | None = None
@@ -145,8 +156,13 @@ class LiveFlight:
             self.history.add(document)
         return documents
 
+    def beat(self) -> None:
+        """Tick, unless it does so by itself; called `stream_rate` times a second."""
+        if not self._hands.flown or self._loop.time() - self._shown_at > SILENT:
+            self.tick()
+
     def tick(self) -> None:
-        """Pass the new documents to all watchers; called `stream_rate` times a second."""
+        """Pass the new documents to all watchers."""
         documents = self.collect()
         if self.watched:
             self.note_seen()
@@ -154,9 +170,11 @@ class LiveFlight:
             self._stage.offer(documents)
         if self.clients:
             text = self._text(documents)  # encoded once for all watchers
-            essential = any(not isinstance(d, Sample) for d in documents)
+            # a snapshot has no orders: what they change is said by others
+            essential = any(not isinstance(d, Sample | CommandGiven) for d in documents)
             for client in self.clients:
                 client.offer(text, essential=essential)
+        self.control.look(over=self.over)
         if self.broken:
             self.dismiss(FLIGHT_BROKEN, "This flight was stopped by a mistake of the server.")
 
@@ -169,7 +187,26 @@ class LiveFlight:
     def leave(self, client: StreamClient) -> None:
         """A client of the stream is gone."""
         self.clients.discard(client)
+        self.control.release(client)
         self.note_seen()
+
+    def hear(self, client: StreamClient, frame: Upstream, *, may_command: bool) -> None:
+        """A client of the stream has sent a frame.
+
+        Args:
+            client: it.
+            frame: what it sent.
+            may_command: whether it may command this flight.
+        """
+        for started in self.history.started:
+            standing = Standing(
+                started=started,
+                over=self.over,
+                replay=self.label.replay,
+                rate=self.pace.rate,
+                may_command=may_command,
+            )
+            self.control.hear(client, frame, standing)
 
     async def enter_scene(self) -> str:
         """Count one more viewer of the scene, which is set up for the first.
@@ -231,20 +268,39 @@ class LiveFlight:
 
     def _fly(self) -> None:
         for document in self._source(self._take_commands):
-            if not self.pace.wait_until(document.t):
+            self._hands.note(document)
+            if not self.pace.wait_until(document.t - self._hands.ahead):
                 return
             self._inbox.put(document)
             self._recording.add(document)
-            if isinstance(document, Sample) and not self._flying.is_set():
-                self._note_flying()
+            if isinstance(document, Sample):
+                if not self._flying.is_set():
+                    self._note_flying()
+                elif self._hands.flown:
+                    self._call(self._show_soon)
         self._flown = True
         self._recording.end("stopped")
 
     def _take_commands(self, t: float) -> Iterator[Command]:
-        del t
+        if self._hands.flown and not t.is_integer():
+            # a stick is read when it acts; that of a full second sooner, as guidance plans first
+            self.pace.wait_until(t)
         while self._commands:
             yield self._commands.popleft()
+        yield from self._hands.orders(t)
 
     def _note_flying(self) -> None:
+        self._call(self._flying.set)
+
+    def _call(self, function: Callable[[], None]) -> None:
         if not self._loop.is_closed():
-            self._loop.call_soon_threadsafe(self._flying.set)
+            self._loop.call_soon_threadsafe(function)
+
+    def _show_soon(self) -> None:
+        if not self._showing:
+            self._showing = True
+            self._loop.call_at(max(self._shown_at + CLOSEST, self._loop.time()), self._show)
+
+    def _show(self) -> None:
+        self._showing, self._shown_at = False, self._loop.time()
+        self.tick()

@@ -1,15 +1,27 @@
-"""One browser on a flight's stream: a queue of two that drops the oldest, and snapshots."""
+"""One client of a flight's stream: a queue of two that drops the oldest, snapshots, and answers."""
 
 import asyncio
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from relguide.contract.upstream import Upstream
+from relguide_server.flights.frames import (
+    LONGEST,
+    MOST,
+    NOT_UNDERSTOOD,
+    TOO_FAST,
+    FrameReader,
+    UnwelcomeFrame,
+)
 from relguide_server.http.metrics import Metrics
 
 QUEUE = 2
 """Ticks that may wait for one client: a tenth of a second."""
+ANSWERS = 8
+"""Answers that may: of more, the newest."""
 WRONG_PROTOCOL, UNKNOWN_FLIGHT, FLIGHT_GONE, FLIGHT_BROKEN = 4400, 4404, 4410, 4500
 TOO_MANY = 4429
 """Close codes of a stream, each sent with a sentence."""
@@ -19,7 +31,9 @@ CLOSE_CODES = {
     WRONG_PROTOCOL: "the client offered no sub-protocol that this server speaks",
     UNKNOWN_FLIGHT: "there is no such flight",
     FLIGHT_GONE: "the flight was removed",
+    NOT_UNDERSTOOD: f"the client sent what is no frame of the stream, or more than {LONGEST} bytes",
     TOO_MANY: "as many watch the flight as may",
+    TOO_FAST: f"the client sent more than {MOST} frames a second",
     FLIGHT_BROKEN: "the flight was stopped by a mistake of the server",
     RESTART: "the service stops: it may be back in a moment",
 }
@@ -33,6 +47,9 @@ class StreamClient:
         self._snapshot = snapshot
         self._metrics = metrics
         self._queue: deque[tuple[str, bool]] = deque()
+        self._answers: deque[str] = deque(maxlen=ANSWERS)
+        self.knows_it_has_none = False
+        """Whether it was told that it has no control."""
         self._behind = True  # a new client has missed everything so far
         self._goodbye: tuple[int, str] | None = None
         self._wake = asyncio.Event()
@@ -52,22 +69,36 @@ class StreamClient:
         self._queue.append((text, essential))
         self._wake.set()
 
+    def answer(self, text: str) -> None:
+        """Say something to this client alone, before any tick that waits."""
+        self._answers.append(text)
+        self._wake.set()
+
     def close(self, code: int, reason: str) -> None:
         """End the stream with a sentence."""
         self._goodbye = (code, reason)
         self._wake.set()
 
-    async def pump(self, websocket: WebSocket) -> None:
-        """Send to an accepted WebSocket until either side ends it."""
+    async def pump(self, websocket: WebSocket, hear: Callable[[Upstream], None]) -> None:
+        """Send to an accepted WebSocket, and hear what it sends, until either side ends it.
+
+        Args:
+            websocket: it.
+            hear: told of each frame that it sends.
+        """
         sender = asyncio.create_task(self._send_all(websocket))
-        watcher = asyncio.create_task(_wait_until_closed(websocket))
+        listener = asyncio.create_task(_listen(websocket, hear))
         try:
-            done, _ = await asyncio.wait((sender, watcher), return_when=asyncio.FIRST_COMPLETED)
+            done, _ = await asyncio.wait((sender, listener), return_when=asyncio.FIRST_COMPLETED)
         finally:
             sender.cancel()
-            watcher.cancel()
-        for task in done:
-            task.result()  # a mistake of ours in there is raised here
+            listener.cancel()
+        try:
+            for task in done:
+                task.result()  # a mistake of ours in there is raised here
+        except UnwelcomeFrame as unwelcome:
+            with suppress(WebSocketDisconnect):
+                await websocket.close(unwelcome.code, unwelcome.reason)
 
     async def _send_all(self, websocket: WebSocket) -> None:
         try:
@@ -84,6 +115,8 @@ class StreamClient:
 
     async def _next(self) -> str | tuple[int, str]:
         while True:
+            if self._answers:
+                return self._answers.popleft()
             if self._behind:
                 self._behind = False
                 self._queue.clear()  # the snapshot holds all that
@@ -96,7 +129,12 @@ class StreamClient:
             await self._wake.wait()
 
 
-async def _wait_until_closed(websocket: WebSocket) -> None:
-    """Browsers only listen; what they send is read and ignored."""
-    while (await websocket.receive())["type"] != "websocket.disconnect":
-        pass
+async def _listen(websocket: WebSocket, hear: Callable[[Upstream], None]) -> None:
+    """Hear each frame until the client is gone; those that only watch send none.
+
+    Raises:
+        UnwelcomeFrame: if the socket is to be closed for one.
+    """
+    reader = FrameReader()
+    while (event := await websocket.receive())["type"] != "websocket.disconnect":
+        hear(reader.read(event))

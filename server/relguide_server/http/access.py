@@ -44,6 +44,7 @@ UNKNOWN_HOST = (
 FOREIGN = "A page of {origin} may not do this: only pages of this server may."
 NO_TOKEN = "This needs a token: send Authorization: Bearer …, or open /?token=… in a browser."
 UNKNOWN_TOKEN = "This token is not one of the service's: ask whoever runs it for one."
+NOT_YOURS = "This flight is another's: only who started it commands it."
 TOO_LITTLE = "This token may {role}; this needs one that may {needed}."
 
 
@@ -162,15 +163,19 @@ def owner_of(connection: HTTPConnection) -> str:
     return owner
 
 
+def may_command(connection: HTTPConnection, owner: str) -> bool:
+    """Whether who asks may command a flight of that owner."""
+    return owner_of(connection) in ("", owner)
+
+
 def expect_owner(connection: HTTPConnection, owner: str) -> None:
     """Refuse who is not the owner of a flight.
 
     Raises:
         Refusal: 403.
     """
-    asking = owner_of(connection)
-    if asking not in ("", owner):
-        raise Refusal(403, "This flight is another's: only who started it commands it.")
+    if not may_command(connection, owner):
+        raise Refusal(403, NOT_YOURS)
 
 
 def read_tokens(text: str) -> dict[str, Role]:

@@ -28,6 +28,10 @@ class Browser:
         self.closed = (code, reason)
 
 
+def expect_silence(frame: object) -> None:
+    raise AssertionError(f"{frame} came from a browser that only watches.")
+
+
 async def settle() -> None:
     for _ in range(10):
         await asyncio.sleep(0)
@@ -37,7 +41,7 @@ def test_a_new_client_gets_the_snapshot_then_the_ticks() -> None:
     async def scenario() -> None:
         browser = Browser()
         client = StreamClient(lambda: "snapshot", Metrics())
-        pump = asyncio.create_task(client.pump(browser))  # type: ignore[arg-type]
+        pump = asyncio.create_task(client.pump(browser, expect_silence))  # type: ignore[arg-type]
         await settle()
         for text in ("one", "two"):
             client.offer(text, essential=False)
@@ -54,7 +58,7 @@ def test_a_slow_client_skips_samples_and_holds_up_nobody() -> None:
         metrics = Metrics()
         browser = Browser()
         client = StreamClient(lambda: "snapshot", metrics)
-        pump = asyncio.create_task(client.pump(browser))  # type: ignore[arg-type]
+        pump = asyncio.create_task(client.pump(browser, expect_silence))  # type: ignore[arg-type]
         await settle()
         browser.reading.clear()
         for k in range(50):
@@ -76,7 +80,7 @@ def test_whoever_missed_a_plan_is_sent_all_anew() -> None:
         browser = Browser()
         snapshots = iter(("first snapshot", "second snapshot"))
         client = StreamClient(lambda: next(snapshots), Metrics())
-        pump = asyncio.create_task(client.pump(browser))  # type: ignore[arg-type]
+        pump = asyncio.create_task(client.pump(browser, expect_silence))  # type: ignore[arg-type]
         await settle()
         browser.reading.clear()
         for k in range(10):
@@ -98,7 +102,7 @@ def test_the_end_comes_with_a_sentence_after_what_waits() -> None:
         browser = Browser()
         client = StreamClient(lambda: "snapshot", Metrics())
         client.close(4410, "It is over.")
-        await client.pump(browser)  # type: ignore[arg-type]
+        await client.pump(browser, expect_silence)  # type: ignore[arg-type]
         assert browser.taken == ["snapshot"]
         assert browser.closed == (4410, "It is over.")
 

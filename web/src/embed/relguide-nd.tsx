@@ -51,7 +51,7 @@ class RelguideNd extends HTMLElement {
   readonly #root = this.attachShadow({ mode: "open" });
   #documents: readonly Document[] = [];
   #t: number | null = null;
-  #stream: Stream | null = null;
+  #stream: Pick<Stream, "retry" | "close"> | null = null;
   #stops: (() => void)[] = [];
 
   /** The flight's documents, in order of time: objects, or the text of a recording. */

@@ -16,7 +16,7 @@ const CHECKPOINT_EVERY = 256;
 
 export interface History {
   readonly knots: Knots;
-  /** All but the samples, in order of time. */
+  /** All that `isEvent`, in order of time. */
   readonly events: readonly Document[];
   /** Takes documents that follow on those before. */
   take(documents: readonly Document[]): void;
@@ -102,7 +102,7 @@ export function createHistory(): History {
       return events;
     },
     take(documents) {
-      events.push(...documents.filter(({ kind }) => kind !== "sample"));
+      events.push(...documents.filter(isEvent));
       const ended = documents.some(({ kind }) => kind === "flight_ended");
       const samples = samplesOf(documents);
       for (const sample of samples) knots.take(sample, minSeparationAt(sample.t_s));
@@ -110,7 +110,7 @@ export function createHistory(): History {
       if (ended && last !== undefined) knots.merge([last], minSeparationAt);
     },
     merge(documents) {
-      const come = documents.filter(({ kind }) => kind !== "sample");
+      const come = documents.filter(isEvent);
       const known = new Set(come.map((each) => JSON.stringify(each)));
       events = inOrder([...come, ...events.filter((each) => !known.has(JSON.stringify(each)))]);
       checkpoints = [NOTHING_KNOWN];
@@ -131,6 +131,11 @@ export function createHistory(): History {
       };
     },
   };
+}
+
+/** Whether a document is news: samples are not, nor are orders, since what comes of each is said besides. */
+export function isEvent({ kind }: Document): boolean {
+  return kind !== "sample" && kind !== "command_given";
 }
 
 /** By time, each kind as it came; the first document of a flight comes first. */

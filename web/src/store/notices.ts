@@ -88,6 +88,7 @@ export const REPLANNED: Record<PlanReason, string> = {
   intent_withdrawn: "LDR INTENT LOST – REPLAN",
   braking: "WEAK BRAKING – REPLAN",
   traffic: "TRAFFIC – REPLAN",
+  assignment_changed: "NEW TASK – REPLAN",
 };
 
 export const ENTERED: Record<Mode, string> = {

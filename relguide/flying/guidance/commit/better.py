@@ -45,7 +45,7 @@ def better(
     if isinstance(plan, NoPlan) or lead.seconds + plan.time_to_converge > left - margin:
         return stays
     found = commit(plan, lead, belief, assignment)
-    least, _ = found.forecast.least(belief.t)
+    least = found.kept(found.forecast, belief.t, assignment)
     sooner = not committed.forecast.joins or (
         found.forecast.joins and found.forecast.join_time < committed.forecast.join_time - margin
     )

@@ -1,11 +1,12 @@
 """The committed path: a plan with its lead-in, tracked as one path, and flown ahead."""
 
-from math import hypot
+from math import hypot, inf
 from typing import NamedTuple
 
 import numpy as np
 
 from relguide.flying.belief import Belief
+from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.commit.segments import segments_of
 from relguide.flying.guidance.forecast import Forecast
 from relguide.kernels.base.angles import wrap
@@ -43,6 +44,15 @@ class Committed(NamedTuple):
     def joins_at(self, ahead: Forecast) -> Second:
         """When it joins by a forecast, or would at best if that does not, flight time [s]."""
         return ahead.join_time if ahead.joins else self.due
+
+    def kept(self, ahead: Forecast, t: Second, assignment: Assignment) -> Metre:
+        """The separation that it keeps by a forecast, from flight time t on [m].
+
+        At a speed that the crew has selected it flies past the slot: that is no fault of the path,
+        which counts until it is there.
+        """
+        until = self.joins_at(ahead) - t if assignment.selected_tas > 0.0 else inf
+        return ahead.least(t, until)[0]
 
     def remaining(self, t: Second, tas: float) -> Trajectory:
         """What is left of the ideal path at flight time t [s], in the air mass of then."""

@@ -34,7 +34,7 @@ def _course_of(
     bends = np.array(
         [bend for segment in plan.trajectory.segments for bend in segment.bends]
     ).reshape(-1, 2)
-    tas, roll_rate = assignment.tas, belief.limits.max_roll_rate
+    tas, roll_rate = assignment.planned_tas, belief.limits.max_roll_rate
     if lead.committed is None:
         own = belief.own
         pieces = np.vstack([lead.pieces, bends])

@@ -65,7 +65,7 @@ def lead_in(belief: Belief, assignment: Assignment, committed: Committed | None)
     """What is flown while the aircraft rolls: the committed path, or on as it flies now."""
     own, wind = belief.own, belief.wind
     seconds = lead_time(assignment, belief.limits.max_roll_rate)
-    length = assignment.tas * seconds
+    length = assignment.planned_tas * seconds
     if committed is None:
         rate = turn_rate(own.tas, own.bank) if abs(own.bank) > LEVEL else 0.0
         pieces = np.array([[length, rate / own.tas]])
@@ -74,11 +74,11 @@ def lead_in(belief: Belief, assignment: Assignment, committed: Committed | None)
     else:
         path, s = committed.course.path, committed.s
         pieces = on.pieces_between(path, s, s + length)
-        kept = _kept(pieces, assignment.tas)
+        kept = _kept(pieces, assignment.planned_tas)
         if kept < len(pieces):
             pieces = pieces[:kept]
             length = float(pieces[:, 0].sum())
-            seconds = length / assignment.tas
+            seconds = length / assignment.planned_tas
         drifted, air = belief.t - committed.course.begun, committed.course.wind
         east, north = air.east * drifted, air.north * drifted
         x, y, heading = on.pose_on(path, s)
@@ -89,7 +89,7 @@ def lead_in(belief: Belief, assignment: Assignment, committed: Committed | None)
         x=x + wind.east * seconds,
         y=y + wind.north * seconds,
         heading=wrap(heading),
-        tas=assignment.tas,
+        tas=assignment.planned_tas,
         max_bank=assignment.planned_bank,
     )
     return LeadIn(

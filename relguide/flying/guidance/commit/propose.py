@@ -75,7 +75,7 @@ def propose(
                 kept, fell_back = replace(kept, fell_back=True), True
             plan = kept
         found = commit(plan, lead, belief, assignment)
-        least, _ = found.forecast.least(belief.t)
+        least = found.kept(found.forecast, belief.t, assignment)
         in_the_way = keeps_clear(found.forecast, belief, assignment)
         if least >= assignment.kept_separation and in_the_way is None:
             shown = shown_plan(plan, lead, belief, assignment)
@@ -124,7 +124,7 @@ def _propose_without_buffer(
         no_plan = _lost_to_another(answer.plan, lead) or answer.plan
         return NoProposal(answer=no_plan, fell_back=fell_back, refusal=refusal)
     found = commit(answer.plan, lead, belief, assignment)
-    least, _ = found.forecast.least(belief.t)
+    least = found.kept(found.forecast, belief.t, assignment)
     if least < limit:
         too_close = _too_close(least, assignment)
         return NoProposal(answer=too_close, fell_back=fell_back, refusal=refusal)

@@ -32,7 +32,7 @@ def shown_plan(plan: Plan, lead: LeadIn, belief: Belief, assignment: Assignment)
 def shown_rest(committed: Committed, belief: Belief, assignment: Assignment) -> Plan:
     """What is left of a committed plan."""
     lead = lead_in(belief, assignment, committed)
-    left = committed.remaining(belief.t, assignment.tas)
+    left = committed.remaining(belief.t, assignment.planned_tas)
     now = situation_now(belief, assignment)
     now = replace(now, pursuer=replace(now.pursuer, x=left.x, y=left.y, heading=left.heading))
     plan = committed.plan

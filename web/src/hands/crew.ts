@@ -1,0 +1,119 @@
+/** What the crew does beside engaging: takes control and gives it back, selects bank, speed and spacing. */
+
+import { effect } from "@preact/signals";
+import { type Actions, isFlying, type Session } from "../session";
+import type { Stream } from "../stream";
+import { formatKnots, formatMiles, inPageUnits } from "../units";
+import type { Command, ControlAnswer } from "../wire";
+import { flyByHand } from "./hand-flying";
+
+/** Nobody flies faster than this by hand [s of flight per s]. */
+const MOST_RATE = 5;
+const LOST = "The connection to the server is lost.";
+
+export type Crew = Pick<
+  Actions,
+  "setAutopilot" | "setDirector" | "selectBank" | "selectSpeed" | "setSpacing"
+>;
+
+/** What a crew acts by. */
+export interface Means {
+  readonly session: Session;
+  /** Gives a command and says what became of it. */
+  command(body: Command, doing: string, done: string): Promise<void>;
+  say(kind: "sending" | "done" | "refused", text: string): void;
+  /** Why nothing can be commanded now; null if it can. */
+  refusal(): string | null;
+  stream(): Stream | null;
+}
+
+export function createCrew({ session, command, say, refusal, stream }: Means): Crew {
+  const { hands, flight } = session;
+  /** Whether the bars are wanted when control is taken. */
+  let withDirector = true;
+  /** What the page has asked for and has not been answered yet. */
+  let asked: "take" | "give" | null = null;
+
+  function answered({ yours, message }: ControlAnswer, link: Stream): void {
+    const wasAsked = asked;
+    asked = null;
+    if (yours) hands.value ??= flyByHand(session, link.send);
+    else endFlying();
+    const isWanted = wasAsked === (yours ? "take" : "give");
+    say(isWanted ? "done" : "refused", inPageUnits(message));
+  }
+
+  function endFlying(): void {
+    hands.peek()?.end();
+    hands.value = null;
+  }
+
+  async function take(): Promise<void> {
+    const why = refusal() ?? (isFlying(session) ? null : "There is no flight to fly.");
+    if (why !== null) {
+      say("refused", why);
+      return;
+    }
+    const { rate } = flight.clock.value;
+    if (rate > MOST_RATE) {
+      const slower = `Rate ×1 from ×${rate}: by hand ×${MOST_RATE} is the most.`;
+      await command({ command: "set_rate", rate: 1 }, slower, slower);
+    }
+    const link = stream();
+    if (link?.send({ kind: "take_control", director: withDirector }) !== true) {
+      say("refused", `${LOST} Control can be taken when it is there again.`);
+      return;
+    }
+    asked = "take";
+    link.answered = (answer) => answered(answer, link);
+    say("sending", "Taking control…");
+  }
+
+  function giveBack(): void {
+    if (hands.value === null) {
+      void command({ command: "set_autopilot", on: true }, "Autopilot on…", "The autopilot flies.");
+      return;
+    }
+    asked = "give";
+    stream()?.send({ kind: "give_back" });
+    say("sending", "Giving control back…");
+  }
+
+  // Control ends with its link, and with its flight.
+  effect(() => {
+    if (flight.connection.value !== "lost" || hands.peek() === null) return;
+    endFlying();
+    say("refused", `${LOST} The autopilot flies.`);
+  });
+  effect(() => {
+    const isOver = flight.clock.value.ended || flight.id.value !== session.status.value?.id;
+    if (isOver) endFlying();
+  });
+
+  return {
+    setAutopilot: (on) => (on ? giveBack() : void take()),
+    setDirector(on) {
+      withDirector = on;
+      const text = `Flight director ${on ? "on" : "off"}`;
+      void command({ command: "set_director", on }, `${text}…`, `${text}.`);
+    },
+    selectBank(bank) {
+      const text = `Bank of ${bank}° selected`;
+      void command({ command: "pursuer_bank", bank_deg: bank }, `${text}…`, `${text}.`);
+    },
+    selectSpeed(tas) {
+      const text = tas === null ? "Speed by guidance" : `Own speed ${formatKnots(tas)} kt selected`;
+      const tas_mps = Number((tas ?? 0).toFixed(3));
+      void command({ command: "pursuer_speed", tas_mps }, `${text}…`, `${text}.`);
+    },
+    setSpacing(spacing) {
+      const { slot_distance_m: slot, min_separation_m: min } = spacing;
+      const said = [
+        ...(slot === undefined ? [] : [`D ${formatMiles(slot)} NM`]),
+        ...(min === undefined ? [] : [`minimum ${formatMiles(min)} NM`]),
+      ].join(", ");
+      const text = said.charAt(0).toUpperCase() + said.slice(1);
+      void command({ command: "set_spacing", ...spacing }, `${text}…`, `${text}.`);
+    },
+  };
+}

@@ -1,0 +1,313 @@
+import { render } from "preact";
+import { act } from "preact/test-utils";
+import { afterEach, beforeEach, describe, expect, test, vi } from "vitest";
+import { type Crew, createCrew } from "../../src/hands/crew";
+import { StickPad } from "../../src/hands/pad";
+import { createSession, type Session } from "../../src/session";
+import { createFlightStore } from "../../src/store/flight";
+import { pairCard } from "../../src/store/pair";
+import type { Stream } from "../../src/stream";
+import type { ControlAnswer, StickMove, Upstream } from "../../src/wire";
+import { amend, pairAt, STARTED, sample, tick } from "../samples";
+import { silentActions } from "../silence";
+
+/** A frame of the page [ms]. */
+const FRAME = 16;
+
+interface Page {
+  readonly session: Session;
+  readonly crew: Crew;
+  readonly stream: Stream;
+  readonly sent: Upstream[];
+  readonly commands: unknown[];
+  /** The service answers. */
+  answer(yours: boolean, message?: string): void;
+  /** The rolls that were sent since this was asked before. */
+  rolls(): number[];
+}
+
+let end = () => {};
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.stubGlobal("requestAnimationFrame", (draw: FrameRequestCallback) =>
+    setTimeout(() => draw(performance.now()), FRAME),
+  );
+});
+
+afterEach(() => {
+  end();
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
+
+function opened(rate = 1): Page {
+  const store = createFlightStore();
+  const session = createSession(store.flight);
+  const { flight } = session;
+  const now = pairAt(0);
+  amend(flight, { started: pairCard(STARTED), sample: now, now });
+  flight.heard.value = { tick: tick(0, [sample(0)]), wall: 0 };
+  flight.id.value = "one";
+  flight.span.value = { first: 0, last: 1 };
+  flight.connection.value = "live";
+  flight.clock.value = { rate, paused: false, ended: false };
+  session.status.value = { id: "one" } as NonNullable<Session["status"]["value"]>;
+  const sent: Upstream[] = [];
+  const commands: unknown[] = [];
+  const stream: Stream = {
+    answered: null,
+    send: (frame) => sent.push(frame) > 0,
+    retry: () => {},
+    close: () => {},
+  };
+  const crew = createCrew({
+    session,
+    async command(body, _, done) {
+      commands.push([body, done]);
+    },
+    say: (kind, text) => {
+      session.feedback.value = { kind, text };
+    },
+    refusal: () => null,
+    stream: () => stream,
+  });
+  end = () => session.hands.value?.end();
+  return {
+    session,
+    crew,
+    stream,
+    sent,
+    commands,
+    answer: (yours, message = "") =>
+      stream.answered?.({ kind: "control", yours, message } satisfies ControlAnswer),
+    rolls: () =>
+      sent.splice(0).flatMap((each) => (each.kind === "stick" ? [(each as StickMove).roll] : [])),
+  };
+}
+
+async function flying(rate = 1): Promise<Page> {
+  const page = opened(rate);
+  page.crew.setAutopilot(false);
+  await vi.advanceTimersByTimeAsync(0);
+  page.answer(true, "You have control.");
+  page.sent.length = 0;
+  return page;
+}
+
+function press(key: string, how: KeyboardEventInit = {}, type = "keydown"): KeyboardEvent {
+  const event = new KeyboardEvent(type, { key, bubbles: true, cancelable: true, ...how });
+  document.body.dispatchEvent(event);
+  return event;
+}
+
+describe("control", () => {
+  test("is taken with the bars unless they were switched off, and the answer is said", async () => {
+    const page = opened();
+    page.crew.setAutopilot(false);
+    await vi.advanceTimersByTimeAsync(0);
+    expect(page.sent).toEqual([{ kind: "take_control", director: true }]);
+    expect(page.session.hands.value).toBeNull();
+    page.answer(true, "You have control.");
+    expect(page.session.hands.value).not.toBeNull();
+    expect(page.session.feedback.value).toEqual({ kind: "done", text: "You have control." });
+    page.crew.setAutopilot(true);
+    expect(page.sent.at(-1)).toEqual({ kind: "give_back" });
+    page.answer(false, "The autopilot flies.");
+    expect(page.session.hands.value).toBeNull();
+    expect(page.session.feedback.value.kind).toBe("done");
+    page.crew.setDirector(false);
+    page.crew.setAutopilot(false);
+    await vi.advanceTimersByTimeAsync(0);
+    expect(page.sent.at(-1)).toEqual({ kind: "take_control", director: false });
+  });
+
+  test("that is refused or lost is said, and nothing is flown by hand", async () => {
+    const page = opened();
+    page.crew.setAutopilot(false);
+    await vi.advanceTimersByTimeAsync(0);
+    page.answer(false, "Another page flies it by hand.");
+    expect(page.session.feedback.value).toMatchObject({ kind: "refused" });
+    expect(page.session.hands.value).toBeNull();
+    const other = await flying();
+    other.session.flight.connection.value = "lost";
+    expect(other.session.hands.value).toBeNull();
+    expect(other.session.feedback.value).toMatchObject({
+      kind: "refused",
+      text: "The connection to the server is lost. The autopilot flies.",
+    });
+  });
+
+  test("of a fast flight is taken at ×1, with a word", async () => {
+    const page = opened(20);
+    page.crew.setAutopilot(false);
+    await vi.advanceTimersByTimeAsync(0);
+    expect(page.commands).toEqual([
+      [{ command: "set_rate", rate: 1 }, "Rate ×1 from ×20: by hand ×5 is the most."],
+    ]);
+    expect(page.sent).toEqual([{ kind: "take_control", director: true }]);
+  });
+
+  test("ends with its flight, and with another one in its place", async () => {
+    const page = await flying();
+    page.session.flight.clock.value = { rate: 1, paused: false, ended: true };
+    expect(page.session.hands.value).toBeNull();
+    const other = await flying();
+    other.session.status.value = { id: "two" } as NonNullable<Session["status"]["value"]>;
+    expect(other.session.hands.value).toBeNull();
+  });
+});
+
+describe("keys", () => {
+  test("move a stick that springs back, and are not the clock's", async () => {
+    const page = await flying();
+    const clock = vi.fn();
+    addEventListener("keydown", clock);
+    expect(press("ArrowRight").defaultPrevented).toBe(true);
+    expect(clock).not.toHaveBeenCalled();
+    removeEventListener("keydown", clock);
+    expect(page.rolls()).toEqual([0.2]); // at once, in the very event
+    vi.advanceTimersByTime(1000);
+    const rolls = page.rolls();
+    expect(rolls.at(-1)).toBe(1);
+    expect(rolls).toEqual(rolls.toSorted((a, b) => a - b));
+    press("ArrowRight", {}, "keyup");
+    vi.advanceTimersByTime(500);
+    const back = page.rolls();
+    expect(back.at(-1)).toBe(0);
+    vi.advanceTimersByTime(3000);
+    expect(page.rolls()).toEqual([]);
+  });
+
+  test("one press banks five degrees, and nothing has to be held", async () => {
+    const page = await flying();
+    const { flight, hands } = page.session;
+    press("6");
+    expect(hands.value?.wanted.value).toBe(5);
+    press("ArrowRight", { shiftKey: true });
+    expect(hands.value?.wanted.value).toBe(10);
+    expect(page.rolls()).toEqual([0.83]);
+    const { pursuer } = pairAt(0);
+    const banked = sample(1, { pursuer: { ...pursuer, bank_deg: 9.9 } });
+    flight.heard.value = { tick: tick(1, [banked]), wall: 0 };
+    vi.advanceTimersByTime(100);
+    expect(page.rolls().at(-1)).toBe(0);
+    press("5");
+    expect(hands.value?.wanted.value).toBe(0);
+    press("ArrowLeft"); // a hand on the stick takes over
+    expect(hands.value?.wanted.value).toBeNull();
+  });
+
+  test("belong to a field, to a dialog, and to a clock that stands", async () => {
+    const page = await flying();
+    const field = document.createElement("input");
+    document.body.append(field);
+    const typed = new KeyboardEvent("keydown", { key: "5", bubbles: true, cancelable: true });
+    field.dispatchEvent(typed);
+    expect(typed.defaultPrevented).toBe(false);
+    field.remove();
+    page.session.flight.clock.value = { rate: 1, paused: true, ended: false };
+    expect(press("ArrowRight").defaultPrevented).toBe(false);
+    expect(page.rolls()).toEqual([]);
+  });
+});
+
+test("the delay of the picture is measured from the key to the frame after the flight has the stick", async () => {
+  const page = await flying();
+  press("ArrowRight");
+  press("ArrowRight", {}, "keyup");
+  vi.advanceTimersByTime(40);
+  const command = { kind: "stick", roll: 0.2, pitch: 0, ident: "" } as const;
+  const given = { kind: "command_given", t_s: 1, command } as const;
+  page.session.flight.heard.value = { tick: tick(1, [given]), wall: 0 };
+  vi.advanceTimersByTime(1100);
+  const { half, framesPerSecond } = page.session.hands.value?.measure.value ?? {};
+  expect(half).toBeGreaterThanOrEqual(40 + FRAME);
+  expect(half).toBeLessThan(40 + 2 * FRAME);
+  expect(framesPerSecond).toBeGreaterThan(55);
+});
+
+describe("neutral", () => {
+  test.each([
+    ["the window loses the focus", () => dispatchEvent(new Event("blur"))],
+    [
+      "the tab is hidden",
+      () => {
+        vi.spyOn(document, "hidden", "get").mockReturnValue(true);
+        document.dispatchEvent(new Event("visibilitychange"));
+      },
+    ],
+  ])("is sent when %s, whatever is held", async (_, leave) => {
+    const page = await flying();
+    press("ArrowLeft");
+    page.session.hands.value?.drag({ roll: 0, pitch: 1 });
+    vi.advanceTimersByTime(300);
+    page.rolls();
+    leave();
+    vi.advanceTimersByTime(60);
+    expect(page.rolls()).toEqual([0]);
+    vi.advanceTimersByTime(1000);
+    expect(page.rolls()).toEqual([]);
+    vi.restoreAllMocks();
+  });
+
+  test("is sent when a controller goes", async () => {
+    const page = await flying();
+    const axes = [1, 0];
+    const there = { id: "Pad", axes, connected: true };
+    vi.stubGlobal("navigator", { getGamepads: () => [there] });
+    vi.spyOn(document, "hasFocus").mockReturnValue(true);
+    vi.advanceTimersByTime(100);
+    expect(page.rolls().at(-1)).toBe(1);
+    expect(page.session.hands.value?.controller.value).toBe("Pad");
+    vi.stubGlobal("navigator", { getGamepads: () => [null] });
+    vi.advanceTimersByTime(100);
+    expect(page.rolls().at(-1)).toBe(0);
+    expect(page.session.hands.value?.controller.value).toContain("Press a button");
+    vi.restoreAllMocks();
+  });
+
+  test("is the stick of a flight that is looked back on", async () => {
+    const page = await flying();
+    page.session.hands.value?.drag({ roll: 1, pitch: 0 });
+    expect(page.rolls()).toEqual([1]);
+    page.session.flight.source.value = { kind: "replay", rate: 1 };
+    vi.advanceTimersByTime(100);
+    expect(page.rolls().at(-1)).toBe(0);
+  });
+});
+
+describe("the pad", () => {
+  test("follows one finger, and lets go when it is lifted or taken away", async () => {
+    const page = await flying();
+    const actions = silentActions();
+    const place = document.createElement("div");
+    document.body.append(place);
+    await act(() => render(<StickPad session={page.session} actions={actions} />, place));
+    const pad = place.querySelector("svg.stick-pad") as SVGElement;
+    pad.setPointerCapture = vi.fn();
+    pad.getBoundingClientRect = () => ({ left: 0, top: 0, width: 100, height: 100 }) as DOMRect;
+    const touch = (type: string, pointerId: number, clientX: number, clientY: number) =>
+      pad.dispatchEvent(new PointerEvent(type, { pointerId, clientX, clientY, bubbles: true }));
+    const stick = () => page.session.hands.value?.stick.value;
+    touch("pointerdown", 1, 90, 50);
+    expect(stick()).toEqual({ roll: 1, pitch: 0 });
+    touch("pointerdown", 2, 10, 50); // another finger is no stick
+    touch("pointermove", 2, 10, 10);
+    expect(stick()).toEqual({ roll: 1, pitch: 0 });
+    touch("pointermove", 1, 50, 70);
+    expect(stick()).toEqual({ roll: 0, pitch: 0.5 });
+    touch("pointercancel", 1, 50, 70);
+    expect(stick()).toEqual({ roll: 0, pitch: 0 });
+    const [left, level, right, back] = place.querySelectorAll("button");
+    right?.click();
+    expect(page.session.hands.value?.wanted.value).toBe(5);
+    left?.click();
+    level?.click();
+    expect(page.session.hands.value?.wanted.value).toBe(0);
+    back?.click();
+    expect(actions.setAutopilot).toHaveBeenCalledWith(true);
+    await act(() => render(null, place));
+    place.remove();
+  });
+});
