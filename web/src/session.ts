@@ -78,6 +78,8 @@ export interface Session {
   readonly chartsOpen: Signal<boolean>;
   /** Four planners side by side. */
   readonly planners: Planners;
+  /** Whether the primary flight display was asked for; it is shown in any case while the crew flies. */
+  readonly pfdOpen: Signal<boolean>;
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
@@ -184,6 +186,7 @@ export function createSession(
     ndRange: signal(40),
     ndAuto: signal(true),
     map: createEditor(comparison.ghost),
+    pfdOpen: signal(false),
     sceneMaximised: signal(false),
     helpOpen: signal(false),
     letterKeys: signal(true),

@@ -25,6 +25,7 @@ const KEYS: readonly (readonly [string, string])[] = [
   ["+  −", "range outward or inward"],
   ["T", "the numbers of the next of the other aircraft, or of none"],
   ["G", "the flight over time: charts in the place of the scene"],
+  ["I", "the instrument that own ship is flown by: the PFD"],
   ["M", "maximise or restore the 3D scene"],
   ["?", "open or close this help"],
   ["Esc", "close, restore"],
