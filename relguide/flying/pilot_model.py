@@ -51,8 +51,7 @@ class PilotModel:
     """How long after an announcement it begins to answer the bar; until then it holds the stick
     neutral [s]."""
     lead: Second = 0.0
-    """How far ahead it sees the bank by the rate of roll: the time constant of a roll mode takes
-    that back [s]."""
+    """It answers the error that the bank will have so much later, by the rate of roll [s]."""
     __repr__ = as_code
 
     def __post_init__(self) -> None:
@@ -71,7 +70,7 @@ class PilotModel:
     def perfect(cls) -> Self:
         """The pilot that asks of the ailerons exactly what the autopilot asks of them.
 
-        The autopilot's law K (φ_c − φ) − D p is a crossover model with ω_c = K and a lead of D/K.
+        The autopilot's law K (φ_c − φ) − D p answers at once, ω_c = K, the error of D/K later.
         """
         lead = ROLL_KD / ROLL_KP
         return cls(

@@ -228,8 +228,10 @@ class Pursuit:
 
 
 def keep_margin(one: Pursuit, belief: Belief) -> None:
-    """Keep as much beside d_min as what is believed now is uncertain."""
+    """Keep as much beside d_min as what is believed now, and the crew's hand, are uncertain."""
     margin = belief.spread.margin
+    if not one.autopilot:
+        margin += one.assignment.settings.by_hand_margin
     if abs(margin - one.assignment.margin) > MARGIN_STEP:
         one.assignment = replace(one.assignment, margin=margin)
 

@@ -260,6 +260,8 @@ export function createActions(
   });
 
   function requestOf(scenario: string): FlightRequest {
+    if (scenario.startsWith("lesson"))
+      return { scenario, rate: 1, paused: true, engagement: "engaged" };
     return { scenario, rate: RATE[engagement], engagement };
   }
 

@@ -41,6 +41,7 @@ const Charts = late(
   async () => (await import("./charts/charts")).Charts,
   "The charts are on their way.",
 );
+const Debrief = late(async () => (await import("./debrief/debrief")).Debrief, "");
 const ComparePanel = late(async () => (await import("./compare/panel")).ComparePanel, "");
 const ExportDialog = late(async () => (await import("./panels/export-dialog")).ExportDialog, "");
 const Captions = late(async () => (await import("./panels/captions")).Captions, "");
@@ -79,7 +80,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
             </Captioned>
           </div>
           {small.value && pfd}
-          {!isMap && <Captions session={session} />}
+          {!isMap && <Captions {...props} />}
           <div class="below">
             {small.value && !isMap && <Engage session={session} actions={actions} />}
             {isMap ? (
@@ -96,7 +97,9 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
           <section class="workstation" aria-label="Scene and panels">
             <div class="beside">
               {!small.value && pfd}
-              {session.chartsOpen.value ? (
+              {session.debriefOpen.value ? (
+                <Debrief {...props} />
+              ) : session.chartsOpen.value ? (
                 <Charts session={session} actions={actions} />
               ) : (
                 !(isFlown && narrow.value) && <Scene session={session} actions={actions} />
@@ -136,7 +139,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
       </main>
       {session.hands.value !== null && <StickPad session={session} actions={actions} />}
       {!isMap && <Timeline session={session} actions={actions} />}
-      {session.helpOpen.value && <Help session={session} />}
+      {session.helpOpen.value && <Help {...props} />}
       {session.exportOpen.value && <ExportDialog session={session} />}
       {session.recordsOpen.value && <Records session={session} actions={actions} />}
       <Announcer session={session} />

@@ -23,7 +23,6 @@ import { followPlanners } from "./planners";
 import { keepPreferences } from "./preferences";
 import { createSession } from "./session";
 import { createFlightStore } from "./store/flight";
-import { takeDroppedFiles } from "./timeline/drop";
 import { followInstant } from "./timeline/link";
 
 const store = createFlightStore();
@@ -31,11 +30,10 @@ const session = createSession(store.flight, followFirstStart(), store.history);
 const receive = drawPictures(store, session);
 const actions = createActions(session, { ...store, receive });
 keepPreferences(session);
-void import("./sound").then(({ soundAlerts }) => soundAlerts(session));
+void import("./afterwards").then(({ beginAfterwards }) => beginAfterwards(session, actions));
 followRange(session);
 followInstant(session);
 followPlanners(session.planners, store.flight);
-takeDroppedFiles(actions);
 
 const place = document.querySelector("#cockpit");
 if (place === null) throw new Error("The page has no place for the cockpit.");

@@ -76,6 +76,9 @@ export interface Session {
   readonly comparison: Comparison;
   /** Whether the flight is drawn over time in the scene's place. */
   readonly chartsOpen: Signal<boolean>;
+  /** Whether it is told there how the flight went, and the stretches in which that says time was lost. */
+  readonly debriefOpen: Signal<boolean>;
+  readonly lost: Signal<readonly { readonly from: number; readonly to: number }[]>;
   /** Four planners side by side. */
   readonly planners: Planners;
   /** Whether the primary flight display was asked for; it is shown in any case while the crew flies. */
@@ -178,6 +181,8 @@ export function createSession(
     comparison,
     planners,
     chartsOpen: signal(false),
+    debriefOpen: signal(false),
+    lost: signal([]),
     scenarios: signal([]),
     status: signal(null),
     feedback: signal({ kind: "none" }),

@@ -167,7 +167,7 @@ describe("panels", () => {
       <>
         <PlanNumbers session={session} />
         <Aircraft session={session} actions={actions} />
-        <Captions session={session} />
+        <Captions session={session} actions={actions} />
       </>,
       place,
     );
@@ -230,8 +230,8 @@ describe("panels", () => {
 
   test("the first steps end with the join: they say what to try, and close", () => {
     vi.useFakeTimers();
-    const { store, session } = flying();
-    act(() => render(<Captions session={session} />, place));
+    const { store, session, actions } = flying();
+    act(() => render(<Captions session={session} actions={actions} />, place));
     expect(place.textContent).toContain("Green will be flown");
     act(() => store.receive(tick(250, [sample(250, { mode: "follow", joined: true })]), 1000));
     expect(place.textContent).toContain("5 of 5Done");
@@ -352,7 +352,7 @@ describe("panels", () => {
     render(
       <>
         <ScenarioPicker session={session} actions={actions} />
-        <Help session={session} />
+        <Help session={session} actions={actions} />
       </>,
       place,
     );

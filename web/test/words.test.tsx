@@ -9,6 +9,7 @@ import { createFlightStore } from "../src/store/flight";
 import { createShown } from "../src/store/picture";
 import { ELEMENTS, elementOf } from "../src/words";
 import { flightAt } from "./nd/fixture";
+import { silentActions } from "./silence";
 
 const place = document.body.appendChild(document.createElement("div"));
 afterEach(() => render(null, place));
@@ -35,7 +36,7 @@ test("Help has the same words, takes the focus and gives it back", () => {
   const button = document.body.appendChild(document.createElement("button"));
   button.focus();
   session.helpOpen.value = true;
-  act(() => render(<Help session={session} />, place));
+  act(() => render(<Help session={session} actions={silentActions()} />, place));
   const dialog = place.querySelector("[role=dialog]");
   expect(document.activeElement).toBe(dialog);
   for (const { title, what } of ELEMENTS) expect(dialog?.textContent).toContain(`${title} ${what}`);

@@ -30,7 +30,7 @@ export function PathPicture({ history, flown, fastest, worst, now }: Props) {
   const leader = flown.seconds.map(({ sample }) => sample.leader);
   const all: Place[] = [...own, ...leader, ...fastest];
   if (all.length === 0) return null;
-  const { pixel, scale } = fit(all);
+  const { pixel, scale } = boxOf(all);
   const spot = ({ from, to }: Stretch) =>
     flown.seconds.filter(({ t }) => t >= from && t <= to).map(({ sample }) => sample.pursuer);
   const bar = SCALES.findLast((miles) => miles * NM * scale <= WIDTH / 3) ?? SCALES[0];
@@ -88,16 +88,23 @@ function Word(props: { at: Place | undefined; pixel: Pixel; text: string; name: 
   const [x, y] = props.pixel(props.at);
   const isRight = x > WIDTH - 70;
   return (
-    <text class={props.name} x={isRight ? x - 7 : x + 7} y={y - 7} text-anchor={isRight ? "end" : "start"}>
+    <text
+      class={props.name}
+      x={isRight ? x - 7 : x + 7}
+      y={y - 7}
+      text-anchor={isRight ? "end" : "start"}
+    >
       {props.text}
     </text>
   );
 }
 
 /** All places in the box, the same scale both ways [px/m]. */
-function fit(places: readonly Place[]): { pixel: Pixel; scale: number } {
-  const least = (axis: keyof Place) => places.reduce((m, each) => Math.min(m, each[axis]), Infinity);
-  const most = (axis: keyof Place) => places.reduce((m, each) => Math.max(m, each[axis]), -Infinity);
+function boxOf(places: readonly Place[]): { pixel: Pixel; scale: number } {
+  const least = (axis: keyof Place) =>
+    places.reduce((m, each) => Math.min(m, each[axis]), Infinity);
+  const most = (axis: keyof Place) =>
+    places.reduce((m, each) => Math.max(m, each[axis]), -Infinity);
   const [west, east, south, north] = [least("x_m"), most("x_m"), least("y_m"), most("y_m")];
   const scale = Math.min(
     (WIDTH - 2 * EDGE) / Math.max(1, east - west),

@@ -1,6 +1,5 @@
 /** A flight second by second: who flew, what was asked and what was flown. What a debrief is made of. */
 
-import { engagedAt } from "../compare/alignment";
 import type { History } from "../store/history";
 import type { PairSample } from "../store/pair";
 
@@ -33,13 +32,17 @@ export function flownOf(history: History): Flown | null {
   const { knots } = history;
   const times = Array.from(knots.column("t_s"));
   const first = times.findIndex((t) => knots.sampleAt(t)?.autopilot === false);
-  const from = first < 0 ? engagedAt(history) : (times[first] ?? 0);
-  if (from === null || knots.span === null) return null;
+  const from = first < 0 ? times.find((t) => isEngaged(history, t)) : times[first];
+  if (from === undefined || knots.span === null) return null;
   const known = times.filter((t) => t >= from);
   const joined = known.find((t) => Number.isFinite(knots.joinedAt(t))) ?? null;
   const to = joined ?? knots.span.last;
   const seconds = known.filter((t) => t <= to).flatMap((t) => secondAt(history, t, joined));
   return { from, to, joined, byHand: first >= 0, seconds };
+}
+
+function isEngaged({ knots }: History, t: number): boolean {
+  return knots.sampleAt(t)?.engagement === "engaged";
 }
 
 function secondAt({ knots }: History, t: number, joined: number | null): Second[] {

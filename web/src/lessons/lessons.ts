@@ -131,7 +131,8 @@ export function lessonOf(scenario: string | undefined): Lesson | null {
 export function sayLate(late: number): string {
   const whole = Math.round(late);
   if (whole === 0) return "with the autopilot, to the second";
-  const size = Math.abs(whole) < 60 ? `${Math.abs(whole)} s` : `${formatClock(Math.abs(whole))} min`;
+  const size =
+    Math.abs(whole) < 60 ? `${Math.abs(whole)} s` : `${formatClock(Math.abs(whole))} min`;
   return `${size} ${whole > 0 ? "after" : "before"} the autopilot`;
 }
 

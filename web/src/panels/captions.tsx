@@ -2,8 +2,9 @@
 
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
+import { LessonCard, lessonShown } from "../lessons/card";
 import { set } from "../parts";
-import type { Session } from "../session";
+import type { Actions, Session } from "../session";
 import type { Guidance } from "../store/states";
 
 const CAPTIONS = [
@@ -48,7 +49,13 @@ const INSTEAD: Partial<Record<Guidance, string>> = {
 const AGAIN =
   "The leader is heard again. Guidance was engaged before: accept what is proposed now, then engage it.";
 
-export function Captions(props: { session: Session }) {
+/** The card of the lesson that is flown, or else the first steps. */
+export function Captions(props: { session: Session; actions: Actions }) {
+  const lesson = lessonShown(props.session);
+  return lesson === null ? <FirstSteps {...props} /> : <LessonCard {...props} lesson={lesson} />;
+}
+
+function FirstSteps(props: { session: Session }) {
   const { captions, shown, flight } = props.session;
   const isTurned = useSignal(false);
   const { state, readAt, sample, alarm, droppedAt } = shown.numbers.value;

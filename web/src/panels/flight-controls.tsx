@@ -1,7 +1,7 @@
 /** What is flown, to begin it anew or end it; and what became of the last command. */
 
 import { FIGURES } from "../compare/references";
-import { Icon, Panel } from "../parts";
+import { Icon, Panel, set } from "../parts";
 import { type Actions, type Feedback, isFlying, type Session } from "../session";
 
 export function FlightControls(props: { session: Session; actions: Actions }) {
@@ -34,6 +34,9 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
         onClick={() => actions.compare(...FIGURES)}
       >
         Fig. 6a beside 6b
+      </button>
+      <button type="button" onClick={set(session.debriefOpen, true)}>
+        Debrief
       </button>
       <FeedbackLine feedback={feedback.value} />
     </Panel>

@@ -1,8 +1,9 @@
 /** The keys, and how to read the picture. */
 
 import type { Signal } from "@preact/signals";
+import { LessonList } from "../lessons/list";
 import { set, useFocus } from "../parts";
-import type { Session } from "../session";
+import type { Actions, Session } from "../session";
 import { ELEMENTS } from "../words";
 import "./dialogs.css";
 
@@ -31,11 +32,16 @@ const KEYS: readonly (readonly [string, string])[] = [
   ["Esc", "close, restore"],
 ];
 
-export function Help({ session }: { session: Session }) {
-  return session.helpOpen.value ? <HelpText session={session} /> : null;
+interface Props {
+  readonly session: Session;
+  readonly actions: Actions;
 }
 
-function HelpText(props: { session: Session }) {
+export function Help(props: Props) {
+  return props.session.helpOpen.value ? <HelpText {...props} /> : null;
+}
+
+function HelpText(props: Props) {
   const { helpOpen, letterKeys, distinctColours, captions, scenarios } = props.session;
   const missing = scenarios.value.filter(({ available }) => !available);
   const dialog = useFocus();
@@ -61,6 +67,7 @@ function HelpText(props: { session: Session }) {
           </div>
         ))}
       </dl>
+      <LessonList {...props} />
       <h2>On the display</h2>
       <p>Point at anything on it, or tap it, to read what it is.</p>
       <ul class="legend">

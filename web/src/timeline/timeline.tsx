@@ -74,7 +74,17 @@ function Track({ session, actions, outline }: Props & { outline: Outline }) {
     >
       <svg viewBox={`0 0 ${width.value} ${HEIGHT}`} aria-hidden="true">
         <Ground outline={outline} width={width.value} />
-        <Looped session={session} outline={outline} width={width.value} />
+        {session.lost.value.map((part) => (
+          <Part key={part.from} name="lost" part={part} outline={outline} width={width.value} />
+        ))}
+        {session.flight.loop.value !== null && (
+          <Part
+            name="loop"
+            part={session.flight.loop.value}
+            outline={outline}
+            width={width.value}
+          />
+        )}
         <g class="timeline-cursor" transform={`translate(${across(outline, width.value, t)} 0)`}>
           <line y1="0" y2={HEIGHT} />
           <path d="M-5 0h10l-5 7z" />
@@ -183,20 +193,26 @@ function Marks({ outline, width }: { outline: Outline; width: number }) {
   );
 }
 
-function Looped({
-  session,
-  outline,
-  width,
-}: {
-  session: Session;
+/** A part of the time, marked: the loop, or where time was lost. */
+function Part(props: {
+  name: string;
+  part: { readonly from: number; readonly to: number };
   outline: Outline;
   width: number;
 }) {
-  const loop = session.flight.loop.value;
-  if (loop === null) return null;
-  const [from, to] = [across(outline, width, loop.from), across(outline, width, loop.to)];
+  const { part, outline } = props;
+  const [from, to] = [
+    across(outline, props.width, part.from),
+    across(outline, props.width, part.to),
+  ];
   return (
-    <rect class="timeline-loop" x={from} y="0" width={Math.max(1, to - from)} height={HEIGHT} />
+    <rect
+      class={`timeline-${props.name}`}
+      x={from}
+      y="0"
+      width={Math.max(1, to - from)}
+      height={HEIGHT}
+    />
   );
 }
 

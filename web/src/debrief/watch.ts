@@ -1,0 +1,30 @@
+/** Opens the debrief when a flight by hand is over: joined, given up, or ended. */
+
+import { effect, untracked } from "@preact/signals";
+import { lessonOf } from "../lessons/lessons";
+import type { Actions, Session } from "../session";
+
+export function openDebriefs(session: Session, actions: Pick<Actions, "pause">): void {
+  const { flight, status, recording, debriefOpen, lost } = session;
+  /** The flight that is flown by hand, and the one whose debrief was opened. */
+  let flown: string | null = null;
+  let opened: string | null = null;
+  effect(() => {
+    if (flight.id.value !== opened) lost.value = [];
+  });
+  effect(() => {
+    const { now, ended, engagement } = flight.read.value;
+    const id = flight.id.value;
+    if (id === null || id === opened || recording.value !== null || now === null) return;
+    if (flight.source.value.kind !== "live") return;
+    if (now.autopilot === false) flown = id;
+    const isOff = engagement?.engagement === "off";
+    const isOver = ended || flight.clock.value.ended || now.joined || isOff;
+    if (flown !== id || !isOver) return;
+    opened = id;
+    untracked(() => {
+      debriefOpen.value = true;
+      if (now.joined && !ended && lessonOf(status.value?.scenario) !== null) actions.pause();
+    });
+  });
+}
