@@ -22,10 +22,12 @@ export interface Spacings {
   /** The least on the way [m]; null where no path says. */
   readonly least: number | null;
   readonly state: Separation;
+  /** Whether it is known where the leader is. */
+  readonly isKnown: boolean;
 }
 
 export function Apart(props: PartProps & Spacings) {
-  const { gauge, minSeparation, slotDistance, least, state } = props;
+  const { gauge, minSeparation, slotDistance, least, state, isKnown } = props;
   const marks = apartMarks(minSeparation);
   const [first = 1] = marks;
   const at = (separation: number) => APART.x + apartOffset(separation, first);
@@ -49,7 +51,7 @@ export function Apart(props: PartProps & Spacings) {
           font-size={24}
           fill={ink(state === "kept" ? "value" : look.colour)}
         >
-          {miles}
+          {isKnown ? miles : "---"}
           <tspan font-size={20} fill={ink("unit")}>
             {" NM"}
           </tspan>
@@ -69,7 +71,7 @@ export function Apart(props: PartProps & Spacings) {
           text-anchor="end"
           fill={ink("value")}
         >
-          {closure}
+          {isKnown ? closure : "CLS ---"}
           <tspan fill={ink("unit")}>{" KT"}</tspan>
         </text>
         <rect
@@ -114,16 +116,20 @@ export function Apart(props: PartProps & Spacings) {
           />
         )}
       </Still>
-      <Sheet gauge={gauge} name="pfd-soon" move={soon}>
-        <path class="pfd-mark" d={`M${x} ${y - 2}l-7 -14h14Z`} stroke={ink("label")} />
-      </Sheet>
-      <Sheet gauge={gauge} name="pfd-now" move={now}>
-        <path
-          class="pfd-solid"
-          d={`M${x} ${y - 2}l-9 -18h18Z`}
-          fill={ink(state === "kept" ? "value" : look.colour)}
-        />
-      </Sheet>
+      {isKnown && (
+        <>
+          <Sheet gauge={gauge} name="pfd-soon" move={soon}>
+            <path class="pfd-mark" d={`M${x} ${y - 2}l-7 -14h14Z`} stroke={ink("label")} />
+          </Sheet>
+          <Sheet gauge={gauge} name="pfd-now" move={now}>
+            <path
+              class="pfd-solid"
+              d={`M${x} ${y - 2}l-9 -18h18Z`}
+              fill={ink(state === "kept" ? "value" : look.colour)}
+            />
+          </Sheet>
+        </>
+      )}
     </>
   );
 }

@@ -99,13 +99,11 @@ function Face({ session, gauge }: { session: Session; gauge: Gauge }) {
   });
   const speed = useBug(() => {
     const { now, assignment } = flight.moment.value;
-    const isSelected = (assignment?.selected_tas_mps.length ?? 0) > 0;
-    return now === null
-      ? null
-      : {
-          value: Math.round(now.commanded_tas_mps / KT),
-          colour: isSelected ? "selected" : "managed",
-        };
+    const [selected] = assignment?.selected_tas_mps ?? [];
+    const commanded = selected ?? now?.commanded_tas_mps;
+    if (commanded === undefined) return null;
+    const colour = selected === undefined ? "managed" : "selected";
+    return { value: Math.round(commanded / KT), colour };
   });
   const level = useBug(() => {
     const { leader } = shown.picture.value;
@@ -124,6 +122,7 @@ function Face({ session, gauge }: { session: Session; gauge: Gauge }) {
   });
   const track = useComputed(() => Math.round(flight.moment.value.now?.pursuer.track_deg ?? 0));
   const limits = useComputed(() => flight.moment.value.started);
+  const isKnown = usePart(shown, ({ leaderAge }) => leaderAge.numbers);
   const state = usePart(shown, ({ separation }) => separation.state);
   const least = usePart(shown, ({ closest, closestAtJoin }) => {
     const least = (closest ?? closestAtJoin)?.least;
@@ -145,6 +144,7 @@ function Face({ session, gauge }: { session: Session; gauge: Gauge }) {
         slotDistance={limits.value?.slot_distance_m ?? 0}
         least={least.value}
         state={state.value}
+        isKnown={isKnown.value}
       />
       <Modes session={session} />
     </>

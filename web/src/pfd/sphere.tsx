@@ -100,7 +100,7 @@ export function BankScale({ planned }: { planned: number | null }) {
 }
 
 function tick(angle: number): string {
-  return bar(angle, 0, angle % 30 === 0 ? 18 : 11);
+  return bar(angle, 0, angle % 30 === 0 ? 20 : 13);
 }
 
 /** A stroke across the scale, from so far within to so far without [px]. */
