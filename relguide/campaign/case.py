@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from relguide.flying.flight import DeclaredLeader, Scenario, world_of
+from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.guidances import Guidance
 from relguide.flying.orders import Command
 from relguide.flying.surveillance import EXACT
@@ -30,6 +31,8 @@ class Case:
     isa_error: float = 0.0
     """The same of the temperature [K]."""
     guidance: Guidance = "relguide"
+    settings: Settings = DEFAULT
+    """Of guidance."""
 
     @property
     def leader_as_declared(self) -> bool:
@@ -49,6 +52,7 @@ class Case:
         return replace(
             world,
             aircraft=(replace(pursuer, airframe=true, believed=believed), leader),
+            settings=self.settings,
             believed_air=world.air.with_error(wind_error=self.wind_error, isa_error=self.isa_error)
             if wrong
             else None,
@@ -69,6 +73,8 @@ class Case:
             lines.append(f"guidance = {self.guidance!r}")
         if scenario.by_hand is not None:
             lines.append(f"by_hand = {scenario.by_hand!r}")
+        if self.settings != DEFAULT:
+            lines.append(f"settings = {self.settings!r}")
         if self.factors:
             lines.append(f"factors = {dict(self.factors)!r}")
         if self.wind_error != CALM or self.isa_error:

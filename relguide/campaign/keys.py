@@ -31,6 +31,7 @@ Setter = Callable[[Case, float, Draw], Case]
 """A case with a value, and random numbers for what the value leaves open, as a direction."""
 AWAY = Range(0.0, 1_000_000.0, "m")
 FACTOR = Range(0.05, 10.0, "times")
+MARGIN = Range(1.0, 10_000.0, "m")
 
 
 class Key(NamedTuple):
@@ -68,6 +69,14 @@ def _pilot(name: str, unit: float = 1.0) -> Setter:
         changed: Any = {name: value * unit}
         pilot = replace(case.scenario.by_hand or PilotModel(), **changed)
         return replace(case, scenario=replace(case.scenario, by_hand=pilot))
+
+    return set_it
+
+
+def _setting(name: str) -> Setter:
+    def set_it(case: Case, value: float, rng: Draw) -> Case:
+        changed: Any = {name: value}
+        return replace(case, settings=replace(case.settings, **changed))
 
     return set_it
 
@@ -195,10 +204,11 @@ KEYS: Mapping[str, Key] = {
     "loss_share": Key(LOSS_SHARE, _seen("loss_share"), "of reports"),
     "pilot_bandwidth_radps": Key(BANDWIDTH, _pilot("bandwidth"), "by hand: ω_c"),
     "pilot_delay_s": Key(DELAY, _pilot("delay"), "by hand: τ"),
-    "pilot_remnant": Key(REMNANT, _pilot("remnant"), "by hand: its noise"),
+    "pilot_remnant_share": Key(REMNANT, _pilot("remnant"), "by hand: its noise"),
     "pilot_threshold_deg": Key(
         THRESHOLD, _pilot("threshold", DEG), "by hand: errors it lets stand"
     ),
     "pilot_reaction_s": Key(REACTION, _pilot("reaction"), "by hand: after an announcement"),
+    "by_hand_margin_m": Key(MARGIN, _setting("by_hand_margin"), "by hand: kept beside d_min"),
 }
 """By name, each with its unit."""

@@ -93,7 +93,7 @@ class Row:
     within_bar_share: float | None = None
     """Share of the time by hand in which the bank was within 2° of the commanded one."""
     tube_m: float | None = None
-    """Largest distance by hand from the path that was tracked, a plan's or the leader's."""
+    """Largest distance by hand beside the path of the plan that was flown."""
     off_autopilot_m: float | None = None
     """The same, until joined, from the path that the autopilot flew."""
     error: str = ""
@@ -189,7 +189,7 @@ FIGURES = (
         low_is_worse=True,
         scale=100.0,
     ),
-    Figure(name="tube_m", heading="off the tracked path by hand, m"),
+    Figure(name="tube_m", heading="beside the path by hand, m"),
     Figure(name="off_autopilot_m", heading="off the autopilot's path, m"),
     Figure(name="fastest_mps", heading="fastest, m/s", decimals=1),
     Figure(name="cpu_s", heading="CPU, s", decimals=2),

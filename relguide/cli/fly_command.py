@@ -86,8 +86,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--orders",
         metavar="FILE",
-        help="what the leader, the crew or the aircraft named is ordered to do: JSON lines in order "
-        "of time, -: standard input; or a recording, whose flight is flown again",
+        help="what the leader, the crew or the aircraft named is to do: JSON lines in order of "
+        "time, -: standard input; or a recording, whose flight is flown again",
     )
     parser.add_argument(
         "--crew",
@@ -140,7 +140,7 @@ def run(chosen: argparse.Namespace) -> int:
     from relguide.flying.flight import fly, world_of
     from relguide.flying.guidance.settings import DEFAULT, load_settings
     from relguide.flying.pilot_model import PilotModel
-    from relguide.flying.scripted_crew import ScriptedCrew
+    from relguide.flying.scripted_crew import with_crew
     from relguide.planning.progress import show_progress
 
     if chosen.sample_rate is not None and chosen.record is None:
@@ -172,13 +172,10 @@ def run(chosen: argparse.Namespace) -> int:
     )
     for _ in islice(flown(sample_period=1.0), LOADING):
         pass
-    ordered, crew = commands_of(orders), ScriptedCrew(script)
     started = perf_counter()
     # unrecorded, one a second is enough for the progress bar
     rate = chosen.sample_rate or 1.0
-    documents = crew.follow(
-        flown(commands=lambda t: (*ordered(t), *crew.commands(t)), sample_period=1.0 / rate)
-    )
+    documents = with_crew(script, partial(flown, sample_period=1.0 / rate), commands_of(orders))
     if chosen.record is not None:
         documents = record(documents, chosen.record, sample_rate=rate)
     flight = summarize(

@@ -1,4 +1,4 @@
-"""What `relguide fly` reads beside the flight: orders, a recording to fly again, a crew's script."""
+"""What `relguide fly` reads beside a flight: orders, a recording to fly again, a crew's script."""
 
 from typing import TYPE_CHECKING, NamedTuple
 

@@ -4,6 +4,7 @@ It has its flight time, `t_s`, or waits for a cue: `on`, and how long `after_s`.
 what is ordered.
 """
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from math import radians
 from typing import Annotated, Any
@@ -40,12 +41,15 @@ def _is_left_out(schema: dict[str, Any]) -> None:
     del schema["default"]  # the field is left out, never null
 
 
+_LEFT_OUT: Any = Field(default=None, json_schema_extra=_is_left_out)
+
+
 class CrewLine(Strict):
     """An order by a pursuer's crew, and when it gives it."""
 
-    t_s: OrderTime = Field(default=None, json_schema_extra=_is_left_out)
+    t_s: OrderTime = _LEFT_OUT
     """Flight time at which it is given; left out where it waits for a cue."""
-    on: Cue = Field(default=None, json_schema_extra=_is_left_out)
+    on: Cue = _LEFT_OUT
     """In place of `t_s`: what it waits for, each time that happens to its pursuer."""
     after_s: OrderTime = 0.0
     """How long after that."""
@@ -59,6 +63,10 @@ class CrewLine(Strict):
         if self.on is None and self.after_s != 0.0:
             raise ValueError("has after_s, which counts from what it waits for: give on, too.")
         return self
+
+    @abstractmethod
+    def command(self) -> CrewCommand:
+        """What the flight is given."""
 
 
 class EngagementOrder(CrewLine):

@@ -32,17 +32,18 @@ from pydantic import (
     model_validator,
 )
 
+from relguide.contract.commands import Rate
+from relguide.contract.crew_lines import CrewOrderLine
 from relguide.contract.flown_bodies import FlownSituationBody
-from relguide.contract.intent_bodies import ClimbRate, Intent
-from relguide.contract.other_bodies import Tas
-from relguide.contract.places import Altitude
+from relguide.contract.intent_bodies import Intent
+from relguide.contract.order_lines import OrderLine
+from relguide.contract.pilot_bodies import ByHand
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.aircraft_documents import ReferenceCard
 from relguide.flying.documents import Document, Engagement, Mode
 from relguide.flying.plan_documents import (
     AnyAlternativeCard,
-    Direction,
     FlownCard,
     NoPlanCard,
     NotFlownCard,
@@ -170,12 +171,10 @@ _KINDS = {
     if field.name == "kind"
 }
 
-Rate = Annotated[float, Field(ge=1.0, le=60.0)]
-"""Accepted simulated seconds per second."""
+MAX_ORDERS = 1000
+"""Most orders that a request for a flight has, and most lines of a crew's script."""
 Seed = Annotated[int, Field(ge=0, le=2**32 - 1)]
 """Accepted seeds of a flight's random numbers."""
-Ident = Annotated[str, Field(max_length=100)]
-"""Of an aircraft of the flight."""
 SpacingTime = Annotated[float, Field(gt=0.0, le=SPACING.high)]
 """Accepted times behind the leader [s]."""
 
@@ -336,6 +335,14 @@ class _HowToFly(Strict):
     """0 flies the type as its data say; any other draws its constants, unknown to its guidance."""
     spacing_time_s: SpacingTime | None = None
     """Time behind the leader to keep once joined; if left out, D is kept."""
+    by_hand: ByHand = False
+    """Whether a pilot model flies the pursuer by hand, along the flight director's bars; its
+    constants, if they are not those that pilots were found to have."""
+    orders: list[OrderLine] = Field(default_factory=list, max_length=MAX_ORDERS)
+    """What aircraft are ordered at flight times, in order of time."""
+    crew: Annotated[list[CrewOrderLine] | None, Field(max_length=MAX_ORDERS)] = None
+    """The script of a crew that reacts. Guidance is off at the start, unless `engagement` or the
+    first line, an engagement at 0 s, says otherwise."""
 
 
 class ScenarioFlightRequest(_HowToFly):
@@ -418,123 +425,3 @@ class FlightList(Strict):
 
     flights: list[FlightStatus]
     """In the order they were started."""
-
-
-class PlayCommand(Strict):
-    """Continue the flight."""
-
-    command: Literal["play"]
-    """Which command it is."""
-
-
-class PauseCommand(Strict):
-    """Pause the flight."""
-
-    command: Literal["pause"]
-    """Which command it is."""
-
-
-class SetRateCommand(Strict):
-    """Change how fast simulated time runs."""
-
-    command: Literal["set_rate"]
-    """Which command it is."""
-    rate: Rate
-    """Simulated seconds per second."""
-
-
-class LeaderHeadingCommand(Strict):
-    """Instruct the leader to turn to a heading."""
-
-    command: Literal["leader_heading"]
-    """Which command it is."""
-    heading_deg: float
-    """Clockwise from true north."""
-    direction: Direction | None = None
-    """Which way round; if left out, the shorter."""
-    ident: Ident = ""
-    """Of the aircraft; if left out, the first link's leader."""
-
-
-class LeaderSpeedCommand(Strict):
-    """Instruct the leader to fly at a speed."""
-
-    command: Literal["leader_speed"]
-    """Which command it is."""
-    tas_mps: Tas
-    """True airspeed."""
-    ident: Ident = ""
-    """Of the aircraft; if left out, the first link's leader."""
-
-
-class LeaderLevelCommand(Strict):
-    """Instruct the leader to climb or descend to a level."""
-
-    command: Literal["leader_level"]
-    """Which command it is."""
-    altitude_m: Altitude
-    """Pressure altitude."""
-    rate_mps: ClimbRate = 7.62
-    """How fast; if left out, 1,500 ft/min."""
-    ident: Ident = ""
-    """Of the aircraft; if left out, the first link's leader."""
-
-
-class IntentKnownCommand(Strict):
-    """Give the leader's intent to the pursuer, or withdraw it."""
-
-    command: Literal["intent_known"]
-    """Which command it is."""
-    known: bool
-    """Whether the pursuer knows it from now on."""
-    ident: Ident = ""
-    """Of the leader; if left out, the first link's."""
-
-
-class LeaderDataCommand(Strict):
-    """Let the leader's reports be received, or not."""
-
-    command: Literal["leader_data"]
-    """Which command it is."""
-    received: bool
-    """Whether they are received from now on."""
-    ident: Ident = ""
-    """Of the pursuer; if left out, the first link's."""
-
-
-class PursuerHeadingCommand(Strict):
-    """Select a heading for the pursuer, while guidance is not engaged."""
-
-    command: Literal["pursuer_heading"]
-    """Which command it is."""
-    heading_deg: float
-    """Clockwise from true north."""
-    ident: Ident = ""
-    """Of the pursuer; if left out, the first link's."""
-
-
-class SetEngagementCommand(Strict):
-    """Designate the leader, accept what is proposed, engage it, or disconnect."""
-
-    command: Literal["set_engagement"]
-    """Which command it is."""
-    engagement: Engagement
-    """How far guidance is engaged from now on."""
-    ident: Ident = ""
-    """Of the pursuer; if left out, the first link's."""
-
-
-Command = Annotated[
-    PlayCommand
-    | PauseCommand
-    | SetRateCommand
-    | LeaderHeadingCommand
-    | LeaderSpeedCommand
-    | LeaderLevelCommand
-    | IntentKnownCommand
-    | LeaderDataCommand
-    | PursuerHeadingCommand
-    | SetEngagementCommand,
-    Field(discriminator="command"),
-]
-"""A command to a flight."""

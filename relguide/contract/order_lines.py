@@ -1,5 +1,6 @@
 """Orders at their flight times as outsiders write them: what a leader does, and what crews do."""
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from typing import Annotated, Any
 
@@ -35,6 +36,10 @@ class LeaderLine(Strict):
     """Flight time at which it is given."""
     ident: Ident = ""
     """Who is to do so; empty for the first link's leader."""
+
+    @abstractmethod
+    def command(self) -> LeaderCommand:
+        """What the flight is given."""
 
 
 class HeadingOrder(LeaderLine):

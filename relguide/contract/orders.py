@@ -138,7 +138,8 @@ def flown_again(documents: Iterable[Document]) -> FlownAgain:
         ValueError: if its documents do not begin with its start.
     """
     orders: list[Order] = []
-    seed, engagement, first = -1, "", ""
+    seed, first = -1, ""
+    engaged: list[Engagement] = []
     for document in documents:
         match document:
             case FlightStarted():
@@ -147,12 +148,12 @@ def flown_again(documents: Iterable[Document]) -> FlownAgain:
             case CommandGiven():
                 orders.append(Order(document.t, document.command))
             case EngagementChanged(ident=ident, previous=previous) if ident == first:
-                engagement = engagement or previous
+                engaged.append(previous)
             case Sample(guidance=guidance):
-                engagement = engagement or next((one.engagement for one in guidance), "")
+                engaged += [one.engagement for one in guidance[:1]]
     if seed < 0:
         raise ValueError("The recording lacks its beginning, so it cannot be flown again.")
-    return FlownAgain(tuple(orders), engagement or "engaged", seed)
+    return FlownAgain(tuple(orders), engaged[0] if engaged else "engaged", seed)
 
 
 def commands_of(orders: Sequence[Order]) -> Callable[[Second], Iterable[Command]]:

@@ -5,10 +5,11 @@ from typing import Any, Literal
 
 from relguide.contract.area_bodies import AreaAnswer, AreaRequest
 from relguide.contract.bodies import SituationBody
+from relguide.contract.commands import Command
+from relguide.contract.crew_lines import CrewOrderLine
 from relguide.contract.intent_bodies import Piece
 from relguide.contract.messages import (
     AlternativeModel,
-    Command,
     DocumentModel,
     FlightList,
     FlightRequest,
@@ -19,6 +20,7 @@ from relguide.contract.messages import (
     ScenarioList,
     Tick,
 )
+from relguide.contract.order_lines import OrderLine
 from relguide.contract.typescript import typescript
 from relguide.contract.upstream import ControlAnswer, Upstream
 from relguide.flying.aircraft_documents import AlertLevel, AlertState, Spacing
@@ -70,6 +72,8 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "PlanAnswer": (PlanAnswer, "The answer to a situation."),
     "IntentPiece": (Piece, "A piece of the leader's intent."),
     "FlightRequest": (FlightRequest, "A request for a new flight."),
+    "CrewOrderLine": (CrewOrderLine, "What a crew orders, and when."),
+    "OrderLine": (OrderLine, "An order at a flight time."),
     "Command": (Command, "A command to a flight."),
     "Upstream": (Upstream, "What a client may send up a flight's stream."),
 }

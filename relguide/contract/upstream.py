@@ -7,13 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from relguide.contract.accepted import Accepted
-from relguide.contract.messages import Ident
+from relguide.contract.crew_lines import Deflection, Ident
 from relguide.contract.refusal import Strict
-from relguide.flying.orders import DEFLECTION
-
-Deflection = Annotated[float, Accepted(DEFLECTION)]
-"""Of a stick."""
 
 
 class TakeControl(Strict):

@@ -164,7 +164,8 @@ class GuidanceSample:
     engagement: Engagement = "engaged"
     """How far the crew has engaged it."""
     margin: Metre = 0.0
-    """What guidance keeps beside d_min for what it is not certain of; 0 where all is exact."""
+    """What guidance keeps beside d_min for what it is not certain of, and while the crew flies by
+    hand; 0 where all is exact."""
     autopilot: bool = field(default=True, metadata=LEFT_OUT)
     """Whether the autopilot flies the pursuer; if not, its crew does by hand."""
     director: bool = field(default=False, metadata=LEFT_OUT)
@@ -213,7 +214,7 @@ class FlownByHand:
     within_bar: Second
     """… and of that with the bank within 2° of the commanded one."""
     tube: Metre
-    """Largest distance beside the path that was tracked."""
+    """Largest distance beside the path of the plan that was flown."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -36,7 +36,7 @@ from relguide.flying.vertical import (
     level_at,
     level_off,
 )
-from relguide.flying.world import Aircraft, Declared, Guided, Recorded, World
+from relguide.flying.world import FLOWN_POSITION, Aircraft, Declared, Guided, Recorded, World
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.flight import by_hand
 from relguide.kernels.flight.energy import idle_deceleration
@@ -54,7 +54,7 @@ from relguide.kernels.flight.second import (
 )
 from relguide.planning.heights import VERTICAL_MINIMUM, WHOLE_METRE, Heights
 from relguide.planning.intent import IntentPiece, LevelChange, SpeedRule
-from relguide.planning.limits import POSITION, TAS
+from relguide.planning.limits import TAS
 from relguide.planning.wind import Wind
 from relguide.units import DEG, G0, NM, Metre, MetrePerSecond, Radian, Second
 
@@ -76,8 +76,6 @@ NEW_LIMITS: Metre = 60.0
 """What an aircraft can do is computed anew once its level has changed by this [m]."""
 ASKED_LESS: MetrePerSecond = 3.0
 """An aircraft that flies so much faster than is asked is to slow down [m/s]."""
-EDGE: Metre = 2_000.0
-"""So near the edge of the plane a flight ends: before plans are refused for it [m]."""
 
 
 class Flown(NamedTuple):
@@ -452,7 +450,7 @@ class Fleet:
 
     def beyond_edge(self) -> str:
         """The ident of an aircraft about to leave the plane; empty if there is none."""
-        edge = POSITION.high - EDGE
+        edge = FLOWN_POSITION.high
         for aircraft, (x, y) in zip(self.world.aircraft, self.states[:, :2].tolist(), strict=True):
             if not (abs(x) <= edge and abs(y) <= edge):
                 return aircraft.ident

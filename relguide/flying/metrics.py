@@ -140,7 +140,7 @@ def _count_by_hand(one: Pursuit, fleet: Fleet) -> FlownByHand:
     error = fleet.bars[i, begin + 1 : end + 1, 0] - fleet.trace[i, begin:end, 3]
     flown = fleet.step * len(error)
     in_view = flown if bars_in_view(one) else 0.0
-    if one.advice is not None and one.advice.mode in ("converge", "capture", "follow"):
+    if one.advice is not None and one.advice.mode == "converge":
         across = abs(one.advice.across)
     return FlownByHand(
         time=before.time + flown,

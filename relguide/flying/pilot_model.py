@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from relguide.kernels.flight import by_hand
 from relguide.kernels.flight.autopilot import ROLL_KD, ROLL_KP
-from relguide.planning.inputs import Range, expect_within
+from relguide.planning.inputs import Range, expect_within, number
 from relguide.planning.reprs import as_code
 from relguide.units import DEG, Radian, RadianPerSecond, Second
 
@@ -51,8 +51,7 @@ class PilotModel:
     """How long after an announcement it begins to answer the bar; until then it holds the stick
     neutral [s]."""
     lead: Second = 0.0
-    """How far ahead it sees the bank by the rate of roll: the time constant of a roll mode takes
-    that back [s]."""
+    """It answers the error that the bank will have so much later, by the rate of roll [s]."""
     __repr__ = as_code
 
     def __post_init__(self) -> None:
@@ -65,13 +64,15 @@ class PilotModel:
             ("reaction", REACTION, 1.0),
             ("lead", LEAD, 1.0),
         ):
-            expect_within(name, getattr(self, name) / unit, *limits)
+            value = number(name, getattr(self, name))
+            expect_within(name, value / unit, *limits)
+            object.__setattr__(self, name, value)
 
     @classmethod
     def perfect(cls) -> Self:
         """The pilot that asks of the ailerons exactly what the autopilot asks of them.
 
-        The autopilot's law K (φ_c − φ) − D p is a crossover model with ω_c = K and a lead of D/K.
+        The autopilot's law K (φ_c − φ) − D p answers at once, ω_c = K, the error of D/K later.
         """
         lead = ROLL_KD / ROLL_KP
         return cls(

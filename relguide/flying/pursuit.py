@@ -228,10 +228,20 @@ class Pursuit:
 
 
 def keep_margin(one: Pursuit, belief: Belief) -> None:
-    """Keep as much beside d_min as what is believed now is uncertain."""
+    """Keep as much beside d_min as what is believed now, and the crew's hand, are uncertain."""
     margin = belief.spread.margin
+    if not one.autopilot:
+        margin += one.assignment.settings.by_hand_margin
     if abs(margin - one.assignment.margin) > MARGIN_STEP:
         one.assignment = replace(one.assignment, margin=margin)
+
+
+def as_it_is_flown(one: Pursuit, belief: Belief) -> Belief:
+    """What is believed, with the crew's part: the speed that it selected, and whether it flies."""
+    limits = one.assignment.can(belief.limits)
+    if one.autopilot and limits is belief.limits:
+        return belief
+    return replace(belief, limits=limits, by_hand=not one.autopilot)
 
 
 def fit_to_level(one: Pursuit, fleet: Fleet) -> None:

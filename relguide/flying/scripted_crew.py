@@ -1,6 +1,6 @@
 """A crew that reacts: it waits for what is said of its flight, and orders what its script says."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -16,7 +16,7 @@ from relguide.flying.documents import (
     Unable,
 )
 from relguide.flying.engagement import MAY_BECOME, Engagement
-from relguide.flying.orders import CrewCommand, SetEngagement
+from relguide.flying.orders import Command, CrewCommand, SetEngagement, no_commands
 from relguide.planning.inputs import expect, number
 from relguide.planning.reprs import as_code
 from relguide.units import Second
@@ -63,6 +63,10 @@ class CrewOrder:
             raise ValueError(f"on must be one of {', '.join(get_args(Cue))}, not {self.on!r}.")
         if number("after", self.after) < 0.0:
             raise ValueError(f"after must be 0 s or more, not {self.after:g} s.")
+
+
+Commands = Callable[[Second], Iterable[Command]]
+"""What a flight polls for commands."""
 
 
 class ScriptedCrew:
@@ -156,3 +160,24 @@ class ScriptedCrew:
 
     def _whose(self, command: CrewCommand) -> str:
         return command.ident or self._first
+
+
+def with_crew(
+    script: Iterable[CrewOrder],
+    flown: Callable[..., Iterator[Document]],
+    commands: Commands = no_commands,
+) -> Iterator[Document]:
+    """A flight in which a crew follows its script.
+
+    Args:
+        script: what it orders, and when.
+        flown: `fly`, or `simulate`, with all but its commands.
+        commands: what else is ordered.
+    """
+    crew = ScriptedCrew(script)
+    return crew.follow(flown(commands=both(commands, crew.commands)))
+
+
+def both(first: Commands, second: Commands) -> Commands:
+    """What is ordered by one, and then by the other."""
+    return lambda t: (*first(t), *second(t))

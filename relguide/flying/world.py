@@ -13,7 +13,7 @@ from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.aircraft import expect_distance, expect_ident
 from relguide.planning.cells import Cell
-from relguide.planning.inputs import expect, expect_within, text, truth
+from relguide.planning.inputs import Range, expect, expect_within, text, truth
 from relguide.planning.intent import IntentPiece, expect_bank, expect_intent
 from relguide.planning.limits import (
     ALTITUDE,
@@ -28,7 +28,17 @@ from relguide.units import DEG, Kilogram, Metre, MetrePerSecond, Radian, Second
 
 BANK_IN_RESERVE: Radian = 5.0 * DEG
 """An autopilot may bank by so much more than its plans turn with, where its type allows it."""
-RANGES = {"x": POSITION, "y": POSITION, "heading": HEADING, "tas": TAS, "altitude": ALTITUDE}
+EDGE: Metre = 2_000.0
+"""So near the edge of the plane a flight ends: before plans are refused for it [m]."""
+FLOWN_POSITION = Range(POSITION.low + EDGE, POSITION.high - EDGE, POSITION.unit)
+"""Where aircraft fly."""
+RANGES = {
+    "x": FLOWN_POSITION,
+    "y": FLOWN_POSITION,
+    "heading": HEADING,
+    "tas": TAS,
+    "altitude": ALTITUDE,
+}
 """What is accepted of an aircraft's numbers, beside its bank."""
 
 

@@ -526,3 +526,40 @@ def test_a_crew_engages_step_by_step_and_what_may_not_follow_is_refused(
     assert order(command="set_engagement", engagement="off").status_code == 202
     assert order(command="leader_data", received=False).status_code == 202
     client.delete(started.headers["location"])
+
+
+def test_a_crew_takes_control_and_selects_and_what_it_cannot_is_refused(
+    client: TestClient,
+) -> None:
+    started = client.post("/api/v1/flights", json={"scenario": "ideal"})
+    where = f"{started.headers['location']}/commands"
+
+    def order(**command: object) -> Any:
+        return client.post(where, json=command)
+
+    flies = order(command="set_autopilot", on=True)
+    is_problem(flies, 409, where)
+    assert flies.json()["detail"] == "The autopilot flies already."
+    moved = order(command="stick", roll=0.5)
+    is_problem(moved, 409, where)
+    assert "take control to fly by hand" in moved.json()["detail"]
+    for command in (
+        {"command": "set_autopilot", "on": False},
+        {"command": "set_director", "on": True},
+        {"command": "pursuer_bank", "bank_deg": 20.0},
+        {"command": "pursuer_speed", "tas_mps": 230.0},
+        {"command": "pursuer_speed", "tas_mps": None},
+        {"command": "set_spacing", "slot_distance_m": 12_000.0},
+    ):
+        assert client.post(where, json=command | {"ident": OWN}).status_code == 202
+        is_problem(client.post(where, json=command | {"ident": LEADER}), 422, where)
+    for wrong in (
+        {"command": "stick", "roll": 1.5},
+        {"command": "pursuer_bank", "bank_deg": 0.5},
+        {"command": "pursuer_speed"},
+        {"command": "set_spacing"},
+        {"command": "set_spacing", "min_separation_m": 0.0},
+        {"command": "set_autopilot", "on": 1},
+    ):
+        is_problem(client.post(where, json=wrong), 422, where)
+    client.delete(started.headers["location"])

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-91435290daed";
+export const PROTOCOL = "relguide-619eb67bc1f6";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -134,6 +134,21 @@ export type IntentPiece = StraightPiece | TurnPiece | LevelChangePiece;
 /** A request for a new flight. */
 export type FlightRequest = ScenarioFlightRequest | SituationFlightRequest;
 
+/** What a crew orders, and when. */
+export type CrewOrderLine =
+  | EngagementOrder
+  | PursuerHeadingOrder
+  | PursuerBankOrder
+  | PursuerSpeedOrder
+  | SpacingOrder
+  | AutopilotOrder
+  | DirectorOrder
+  | StickOrder
+  | LeaderDataOrder;
+
+/** An order at a flight time. */
+export type OrderLine = HeadingOrder | SpeedOrder | LevelOrder | IntentOrder | CrewOrderLine;
+
 /** A command to a flight. */
 export type Command =
   | PlayCommand
@@ -145,7 +160,13 @@ export type Command =
   | IntentKnownCommand
   | LeaderDataCommand
   | PursuerHeadingCommand
-  | SetEngagementCommand;
+  | PursuerBankCommand
+  | PursuerSpeedCommand
+  | SetSpacingCommand
+  | SetEngagementCommand
+  | SetAutopilotCommand
+  | SetDirectorCommand
+  | StickCommand;
 
 /** What a client may send up a flight's stream. */
 export type Upstream = TakeControl | StickMove | GiveBack;
@@ -321,6 +342,29 @@ export interface AssignmentChanged {
   message: string;
 }
 
+/** The crew takes control from the autopilot, or gives it back. */
+export interface AutopilotOrder {
+  t_s?: number;
+  on?:
+    | "start"
+    | "proposed"
+    | "designated"
+    | "armed"
+    | "engaged"
+    | "off"
+    | "new_plan"
+    | "converge"
+    | "capture"
+    | "follow"
+    | "escape"
+    | "unable"
+    | "data_lost"
+    | "alert";
+  after_s?: number;
+  ident?: string;
+  autopilot: boolean;
+}
+
 /** The flight director's bars at one instant: what is commanded less what is flown. */
 export interface Bars {
   /** Commanded bank less bank, smoothed over half a second: positive asks to roll right. */
@@ -487,6 +531,29 @@ export interface CostatesCard {
   bearing_costate_s_per_deg: number[];
 }
 
+/** The crew switches the flight director. */
+export interface DirectorOrder {
+  t_s?: number;
+  on?:
+    | "start"
+    | "proposed"
+    | "designated"
+    | "armed"
+    | "engaged"
+    | "off"
+    | "new_plan"
+    | "converge"
+    | "capture"
+    | "follow"
+    | "escape"
+    | "unable"
+    | "data_lost"
+    | "alert";
+  after_s?: number;
+  ident?: string;
+  director: boolean;
+}
+
 /** A round weather cell at all levels, to be kept out of. */
 export interface DiscCell {
   ident: string;
@@ -519,6 +586,29 @@ export interface EngagementChanged {
   /** The same, if the order was refused. */
   previous: Engagement;
   message: string;
+}
+
+/** The crew designates the leader, accepts what is proposed, engages it, or disconnects. */
+export interface EngagementOrder {
+  t_s?: number;
+  on?:
+    | "start"
+    | "proposed"
+    | "designated"
+    | "armed"
+    | "engaged"
+    | "off"
+    | "new_plan"
+    | "converge"
+    | "capture"
+    | "follow"
+    | "escape"
+    | "unable"
+    | "data_lost"
+    | "alert";
+  after_s?: number;
+  ident?: string;
+  engagement: Engagement;
 }
 
 /**
@@ -626,7 +716,7 @@ export interface FlownByHand {
   with_bars_s: number;
   /** … and of that with the bank within 2° of the commanded one. */
   within_bar_s: number;
-  /** Largest distance beside the path that was tracked. */
+  /** Largest distance beside the path of the plan that was flown. */
   tube_m: number;
 }
 
@@ -807,7 +897,10 @@ export interface GuidanceSample {
   leader_age_s: number;
   /** How far the crew has engaged it. */
   engagement: Engagement;
-  /** What guidance keeps beside d_min for what it is not certain of; 0 where all is exact. */
+  /**
+   * What guidance keeps beside d_min for what it is not certain of, and while the crew flies by
+   * hand; 0 where all is exact.
+   */
   margin_m: number;
   /** Whether the autopilot flies the pursuer; if not, its crew does by hand. */
   autopilot?: boolean;
@@ -815,6 +908,14 @@ export interface GuidanceSample {
   director?: boolean;
   /** Its bars; none while they are out of view: it is off, or guidance is. */
   bars?: Bars[];
+}
+
+/** The leader is to turn to a heading. */
+export interface HeadingOrder {
+  t_s: number;
+  ident?: string;
+  leader_heading_deg: number;
+  direction?: "left" | "right" | "shorter";
 }
 
 /** Guidance asks the autopilot to hold a heading. */
@@ -836,6 +937,13 @@ export interface IntentKnownCommand {
   command: "intent_known";
   known: boolean;
   ident?: string;
+}
+
+/** The leader's intent is given to the pursuer, or withdrawn. */
+export interface IntentOrder {
+  t_s: number;
+  ident?: string;
+  intent_known: boolean;
 }
 
 /** The leader does something new, or its intent was received or withdrawn. */
@@ -861,6 +969,29 @@ export interface LeaderDataCommand {
   command: "leader_data";
   received: boolean;
   ident?: string;
+}
+
+/** The leader's reports are received, or not. */
+export interface LeaderDataOrder {
+  t_s?: number;
+  on?:
+    | "start"
+    | "proposed"
+    | "designated"
+    | "armed"
+    | "engaged"
+    | "off"
+    | "new_plan"
+    | "converge"
+    | "capture"
+    | "follow"
+    | "escape"
+    | "unable"
+    | "data_lost"
+    | "alert";
+  after_s?: number;
+  ident?: string;
+  leader_data_received: boolean;
 }
 
 /** An aircraft is to turn to a heading. It drops its intent, or leaves its recording. */
@@ -951,6 +1082,14 @@ export interface LevelChangeCard {
 /** A piece of intent: begin to change the level. The pieces behind it are flown meanwhile. */
 export interface LevelChangePiece {
   level_change: LevelChange;
+}
+
+/** The leader is to climb or descend. */
+export interface LevelOrder {
+  t_s: number;
+  ident?: string;
+  leader_level_m: number;
+  rate_mps?: number;
 }
 
 /** At another level there is a plan. */
@@ -1221,6 +1360,15 @@ export interface PauseCommand {
   command: "pause";
 }
 
+/** The constants of the crossover model; those left out are as pilots were found to have. */
+export interface PilotBody {
+  bandwidth_radps?: number;
+  delay_s?: number;
+  remnant?: number;
+  threshold_deg?: number;
+  reaction_s?: number;
+}
+
 /** A plan as outsiders read it: the answer of REST, of the command line, and of the display. */
 export interface PlanCard {
   /** There is a plan. */
@@ -1399,6 +1547,36 @@ export interface PursuerBank {
   ident: string;
 }
 
+/** Select the bank that plans turn with. */
+export interface PursuerBankCommand {
+  command: "pursuer_bank";
+  bank_deg: number;
+  ident?: string;
+}
+
+/** The crew selects the bank that plans turn with. */
+export interface PursuerBankOrder {
+  t_s?: number;
+  on?:
+    | "start"
+    | "proposed"
+    | "designated"
+    | "armed"
+    | "engaged"
+    | "off"
+    | "new_plan"
+    | "converge"
+    | "capture"
+    | "follow"
+    | "escape"
+    | "unable"
+    | "data_lost"
+    | "alert";
+  after_s?: number;
+  ident?: string;
+  pursuer_max_bank_deg: number;
+}
+
 /** The crew selects a heading, which is flown until guidance is engaged. */
 export interface PursuerHeading {
   kind: "pursuer_heading";
@@ -1415,6 +1593,29 @@ export interface PursuerHeadingCommand {
   ident?: string;
 }
 
+/** The crew selects a heading, while guidance is not engaged. */
+export interface PursuerHeadingOrder {
+  t_s?: number;
+  on?:
+    | "start"
+    | "proposed"
+    | "designated"
+    | "armed"
+    | "engaged"
+    | "off"
+    | "new_plan"
+    | "converge"
+    | "capture"
+    | "follow"
+    | "escape"
+    | "unable"
+    | "data_lost"
+    | "alert";
+  after_s?: number;
+  ident?: string;
+  pursuer_heading_deg: number;
+}
+
 /** The crew selects a speed in place of the one that guidance asks for. */
 export interface PursuerSpeed {
   kind: "pursuer_speed";
@@ -1422,6 +1623,36 @@ export interface PursuerSpeed {
   tas_mps: number;
   /** Of the pursuer whose crew does so; empty for the first link's. */
   ident: string;
+}
+
+/** Select a speed in place of the one that guidance asks for, or leave it to guidance again. */
+export interface PursuerSpeedCommand {
+  command: "pursuer_speed";
+  tas_mps: number | null;
+  ident?: string;
+}
+
+/** The crew selects a speed in place of the one that guidance asks for. */
+export interface PursuerSpeedOrder {
+  t_s?: number;
+  on?:
+    | "start"
+    | "proposed"
+    | "designated"
+    | "armed"
+    | "engaged"
+    | "off"
+    | "new_plan"
+    | "converge"
+    | "capture"
+    | "follow"
+    | "escape"
+    | "unable"
+    | "data_lost"
+    | "alert";
+  after_s?: number;
+  ident?: string;
+  pursuer_tas_mps: number | null;
 }
 
 /** The flight at one instant. */
@@ -1442,6 +1673,9 @@ export interface ScenarioFlightRequest {
   engagement?: Engagement;
   seed?: number;
   spacing_time_s?: number | null;
+  by_hand?: boolean | PilotBody;
+  orders?: OrderLine[];
+  crew?: CrewOrderLine[] | null;
   scenario: string;
 }
 
@@ -1505,12 +1739,26 @@ export interface SetAutopilot {
   ident: string;
 }
 
+/** Take control from the autopilot, to fly by hand, or give it back. */
+export interface SetAutopilotCommand {
+  command: "set_autopilot";
+  on: boolean;
+  ident?: string;
+}
+
 /** The crew switches the flight director's bars on (`True`) or off. */
 export interface SetDirector {
   kind: "set_director";
   on: boolean;
   /** Of the pursuer whose crew does so; empty for the first link's. */
   ident: string;
+}
+
+/** Switch the flight director. */
+export interface SetDirectorCommand {
+  command: "set_director";
+  on: boolean;
+  ident?: string;
 }
 
 /** The crew engages guidance further, or less far. */
@@ -1545,6 +1793,14 @@ export interface SetSpacing {
   ident: string;
 }
 
+/** Change D, d_min or both in flight. */
+export interface SetSpacingCommand {
+  command: "set_spacing";
+  slot_distance_m?: number | null;
+  min_separation_m?: number | null;
+  ident?: string;
+}
+
 /** Everything a plan depends on, at one instant. */
 export interface SituationBody {
   pursuer: LocalPursuer | GeodeticPursuer;
@@ -1564,6 +1820,9 @@ export interface SituationFlightRequest {
   engagement?: Engagement;
   seed?: number;
   spacing_time_s?: number | null;
+  by_hand?: boolean | PilotBody;
+  orders?: OrderLine[];
+  crew?: CrewOrderLine[] | null;
   situation: FlownSituationBody;
   flown_intent?: IntentPiece[] | null;
 }
@@ -1578,6 +1837,37 @@ export interface SlotDistanceRemedy {
   time_to_converge_s: number;
   /** The same in a sentence. */
   message: string;
+}
+
+/** The crew changes D, d_min or both. */
+export interface SpacingOrder {
+  t_s?: number;
+  on?:
+    | "start"
+    | "proposed"
+    | "designated"
+    | "armed"
+    | "engaged"
+    | "off"
+    | "new_plan"
+    | "converge"
+    | "capture"
+    | "follow"
+    | "escape"
+    | "unable"
+    | "data_lost"
+    | "alert";
+  after_s?: number;
+  ident?: string;
+  slot_distance_m?: number;
+  min_separation_m?: number;
+}
+
+/** The leader is to fly at a speed. */
+export interface SpeedOrder {
+  t_s: number;
+  ident?: string;
+  leader_tas_mps: number;
 }
 
 /**
@@ -1595,6 +1885,14 @@ export interface Stick {
   ident: string;
 }
 
+/** Move the stick, while the crew has control; it stays there until the next such command. */
+export interface StickCommand {
+  command: "stick";
+  roll: number;
+  pitch?: number;
+  ident?: string;
+}
+
 /**
  * Move the stick.
  *
@@ -1605,6 +1903,30 @@ export interface StickMove {
   kind: "stick";
   roll: number;
   pitch?: number;
+}
+
+/** The crew moves the stick, which stays there until the next such order. */
+export interface StickOrder {
+  t_s?: number;
+  on?:
+    | "start"
+    | "proposed"
+    | "designated"
+    | "armed"
+    | "engaged"
+    | "off"
+    | "new_plan"
+    | "converge"
+    | "capture"
+    | "follow"
+    | "escape"
+    | "unable"
+    | "data_lost"
+    | "alert";
+  after_s?: number;
+  ident?: string;
+  stick_roll?: number;
+  stick_pitch?: number;
 }
 
 /** A piece of intent: keep the heading. */

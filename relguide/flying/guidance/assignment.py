@@ -37,7 +37,7 @@ class Assignment:
     """Time behind the leader to keep [s]; 0 where a distance is kept."""
     settings: Settings
     margin: Metre = 0.0
-    """What is kept beside d_min for what is not certain [m]."""
+    """What is kept beside d_min for what is not certain, as where a crew flies by hand [m]."""
     selected_tas: MetrePerSecond = 0.0
     """The speed that the crew has selected; 0 while guidance sets the speed [m/s]."""
 

@@ -60,6 +60,9 @@ class Settings:
     """At least 10 kt faster, or a leader with speed V_P is never reached."""
     separation_buffer: Metre = 0.1 * NM
     """Plans keep d_min and this: twice the tube of a reversal at 22.5° of bank."""
+    by_hand_margin: Metre = 100.0
+    """… and so much more while the crew flies by hand: of 214 flights along a plan by drawn pilots
+    none was farther than this from the autopilot's path, and 99 % were within 82 m."""
     joined_along: Metre = 0.2 * NM
     """Half of D − d_min in Fig. 6; closing at 13 m/s there."""
     joined_across: Metre = 0.1 * NM

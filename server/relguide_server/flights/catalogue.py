@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import islice
 from math import inf
 from time import monotonic
@@ -11,12 +12,14 @@ from fastapi import Depends
 from starlette.requests import HTTPConnection
 
 from relguide.contract.messages import FlightRequest, ScenarioInfo, ScenarioList
+from relguide.contract.orders import commands_of
 from relguide.contract.places import UNANCHORED, Anchor
 from relguide.flying.flight import Scenario, fly
 from relguide.flying.scenarios import SCENARIOS, scenario
+from relguide.flying.scripted_crew import both, with_crew
 from relguide.planning.outcome import Planner
 from relguide.planning.situation import Situation
-from relguide_server.flights.flight_requests import scenario_of, with_intent
+from relguide_server.flights.flight_requests import ordered_in, scenario_of, with_intent
 from relguide_server.flights.live_flight import Source
 
 ENDLESS = 1e9
@@ -70,18 +73,22 @@ def library_catalogue(planner: Planner, name: str | None = None) -> FlightCatalo
     def find(wanted: FlightRequest) -> RequestedFlight:
         flown, found, anchor = scenario_of(wanted)
         found = replace(found, duration_limit=ENDLESS, after_joining=ENDLESS)
-        seed, engagement = wanted.seed, wanted.engagement
+        ordered, seed = ordered_in(wanted, found), wanted.seed
         return RequestedFlight(
             scenario=flown,
             title=found.title,
-            source=lambda commands: fly(
-                found,
-                planner,
-                commands=commands,
-                seed=seed,
-                engagement=engagement,
-                planner_name=name,
-                wants_fan=not_too_often(),
+            source=lambda commands: with_crew(
+                ordered.script,
+                partial(
+                    fly,
+                    found,
+                    planner,
+                    seed=seed,
+                    engagement=ordered.engagement,
+                    planner_name=name,
+                    wants_fan=not_too_often(),
+                ),
+                both(commands, commands_of(ordered.orders)),
             ),
             anchor=anchor,
             first=_known_situation(found),

@@ -1,6 +1,8 @@
 """From a request for a flight to the scenario that it asks for."""
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from relguide.contract.flown_bodies import scenario_from_body
 from relguide.contract.intent_bodies import intent_from_body
@@ -9,13 +11,28 @@ from relguide.contract.messages import (
     ScenarioFlightRequest,
     SituationFlightRequest,
 )
+from relguide.contract.orders import Order, begun, crew_order, fault_in, order_of
+from relguide.contract.pilot_bodies import pilot_of
 from relguide.contract.places import UNANCHORED, Anchor
 from relguide.contract.refusal import ContractError
-from relguide.flying.flight import Scenario
+from relguide.flying.engagement import Engagement
+from relguide.flying.flight import Scenario, world_of
+from relguide.flying.orders import Command
 from relguide.flying.scenarios import scenario
+from relguide.flying.scripted_crew import CrewOrder
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.intent import IntentPiece
 from relguide.planning.situation import Situation
+
+
+class Ordered(NamedTuple):
+    """What is ordered in a flight from its beginning."""
+
+    orders: tuple[Order, ...]
+    script: tuple[CrewOrder, ...]
+    """Of a crew that reacts."""
+    engagement: Engagement
+    """How far guidance is engaged at the start."""
 
 
 def scenario_of(wanted: FlightRequest) -> tuple[str, Scenario, Anchor]:
@@ -39,7 +56,39 @@ def scenario_of(wanted: FlightRequest) -> tuple[str, Scenario, Anchor]:
         found = replace(found, intent_known=wanted.intent_known)
     if wanted.spacing_time_s is not None:
         found = replace(found, spacing=wanted.spacing_time_s)
+    found = replace(found, by_hand=pilot_of(wanted.by_hand))
     return name, found, anchor
+
+
+def ordered_in(wanted: FlightRequest, found: Scenario) -> Ordered:
+    """What a request orders in the scenario that it asks for.
+
+    Raises:
+        ContractError: for the first order that cannot be given.
+    """
+    orders: list[Order] = []
+    for index, line in enumerate(wanted.orders):
+        try:
+            orders.append(order_of(line, orders[-1].t if orders else 0.0))
+        except ContractError as error:
+            (path, said), *_ = error.problems
+            raise ContractError([(f"orders[{index}].{path}", said)]) from None
+    lines = tuple(map(crew_order, wanted.crew or ()))
+    _expect_flying("orders", [order.command for order in orders], found)
+    _expect_flying("crew", [line.command for line in lines], found)
+    begins, script = begun(lines)
+    if wanted.crew is None or "engagement" in wanted.model_fields_set:
+        begins = wanted.engagement
+    return Ordered(tuple(orders), script, begins)
+
+
+def _expect_flying(name: str, commands: Sequence[Command], found: Scenario) -> None:
+    if not commands:
+        return
+    world = world_of(found)
+    for index, command in enumerate(commands):
+        if fault := fault_in(command, world):
+            raise ContractError([(f"{name}[{index}].ident", fault)])
 
 
 def with_intent(situation: Situation, intent: tuple[IntentPiece, ...]) -> Situation:

@@ -2,18 +2,15 @@
 
 import asyncio
 from functools import partial
+from math import radians
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Request, WebSocket
 from pydantic import RootModel
 from starlette.responses import Response
 
-from relguide.contract.compass import heading_of
-from relguide.contract.messages import (
+from relguide.contract.commands import (
     Command,
-    FlightList,
-    FlightRequest,
-    FlightStatus,
     IntentKnownCommand,
     LeaderDataCommand,
     LeaderHeadingCommand,
@@ -21,15 +18,22 @@ from relguide.contract.messages import (
     LeaderSpeedCommand,
     PauseCommand,
     PlayCommand,
+    PursuerBankCommand,
     PursuerHeadingCommand,
-    ScenarioList,
+    PursuerSpeedCommand,
+    SetAutopilotCommand,
+    SetDirectorCommand,
     SetEngagementCommand,
     SetRateCommand,
+    SetSpacingCommand,
+    StickCommand,
 )
+from relguide.contract.compass import heading_of
+from relguide.contract.messages import FlightList, FlightRequest, FlightStatus, ScenarioList
 from relguide.contract.protocol import PROTOCOL, STREAM
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.aircraft_documents import GuidanceSample, find_by_ident
-from relguide.flying.engagement import refusal
+from relguide.flying.engagement import autopilot_refusal, refusal
 from relguide.flying.orders import Command as Order
 from relguide.flying.orders import (
     IntentKnown,
@@ -37,12 +41,18 @@ from relguide.flying.orders import (
     LeaderHeading,
     LeaderLevel,
     LeaderSpeed,
+    PursuerBank,
     PursuerHeading,
+    PursuerSpeed,
+    SetAutopilot,
+    SetDirector,
     SetEngagement,
+    SetSpacing,
+    Stick,
     order_fault,
 )
 from relguide_server.flights.catalogue import CatalogueOf
-from relguide_server.flights.control import MOST_RATE, TOO_FAST
+from relguide_server.flights.control import HELD, MOST_RATE, TOO_FAST
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
@@ -217,6 +227,8 @@ async def command_flight(
 ) -> Response:
     """Pause, go on, another rate; what the leader flies and tells; and what the crew engages.
 
+    A crew that takes control (`set_autopilot` off) flies by hand, by `stick`.
+
     Commands to a paused flight take effect when it continues, within a second of flight. The
     header `Relguide-Recorded` says whether the command is on record already.
     """
@@ -316,6 +328,18 @@ def _command(flight: LiveFlight, command: Command) -> None:
             _order_heading(flight, PursuerHeading(heading=heading_of(heading), ident=ident))
         case SetEngagementCommand(engagement=engagement, ident=ident):
             _order_engagement(flight, SetEngagement(engagement=engagement, ident=ident))
+        case PursuerBankCommand(bank_deg=bank, ident=ident):
+            _order(flight, PursuerBank(bank=radians(bank), ident=ident))
+        case PursuerSpeedCommand(tas_mps=tas, ident=ident):
+            _order(flight, PursuerSpeed(tas=tas or 0.0, ident=ident))
+        case SetSpacingCommand():
+            _order(flight, _spacing(command))
+        case SetAutopilotCommand(on=on, ident=ident):
+            _order_autopilot(flight, SetAutopilot(on=on, ident=ident))
+        case SetDirectorCommand(on=on, ident=ident):
+            _order(flight, SetDirector(on=on, ident=ident))
+        case StickCommand(roll=roll, pitch=pitch, ident=ident):
+            _move_stick(flight, Stick(roll=roll, pitch=pitch, ident=ident))
 
 
 def _order(flight: LiveFlight, order: Order) -> None:
@@ -352,6 +376,34 @@ def _order_engagement(flight: LiveFlight, order: SetEngagement) -> None:
     if why:
         raise Refusal(409, why)
     flight.command(order)
+
+
+def _order_autopilot(flight: LiveFlight, order: SetAutopilot) -> None:
+    """Refuse to take what one has, and an autopilot that cannot take over."""
+    _expect_flying(flight, order)
+    guidance = _guidance(flight, order.ident)
+    flown = find_by_ident(flight.history.newest[0].aircraft, guidance.ident)
+    why = autopilot_refusal(on=guidance.autopilot, to=order.on, bank=flown.bank)
+    if why:
+        raise Refusal(409, why)
+    flight.command(order)
+
+
+def _move_stick(flight: LiveFlight, order: Stick) -> None:
+    _expect_flying(flight, order)
+    if flight.control.taken:
+        raise Refusal(409, HELD)
+    if _guidance(flight, order.ident).autopilot:
+        raise Refusal(409, "The autopilot flies: take control to fly by hand.")
+    flight.command(order)
+
+
+def _spacing(command: SetSpacingCommand) -> SetSpacing:
+    return SetSpacing(
+        slot_distance=command.slot_distance_m or 0.0,
+        min_separation=command.min_separation_m or 0.0,
+        ident=command.ident,
+    )
 
 
 def _leader_heading(command: LeaderHeadingCommand) -> LeaderHeading:

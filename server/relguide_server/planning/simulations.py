@@ -14,7 +14,7 @@ from relguide.contract.simulation_bodies import (
     SimulationRequest,
     expect_unwatched,
 )
-from relguide_server.flights.flight_requests import scenario_of
+from relguide_server.flights.flight_requests import ordered_in, scenario_of
 from relguide_server.http.bodies import (
     JSON,
     address_of,
@@ -71,6 +71,8 @@ async def simulate_flights(
 ) -> Response:
     """Flights as `POST /flights` takes them, as fast as they go; nothing of them is streamed.
 
+    `orders` and a `crew` that reacts take the place of commands.
+
     Each ends two minutes after it has joined, or when its time is over, as in `relguide fly`.
     """
     plan_service: PlanService = request.app.state.plan_service
@@ -123,7 +125,8 @@ def _read(content: object) -> list[FlightRequest]:
 
 def _expect_flyable(index: int, wanted: FlightRequest) -> None:
     try:
-        scenario_of(wanted)
+        _, flown, _ = scenario_of(wanted)
+        ordered_in(wanted, flown)
     except ContractError as error:
         under = [(f"[{index}].{path}", said) for path, said in error.problems]
         raise ContractError(under, count=error.count) from None

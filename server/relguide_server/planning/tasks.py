@@ -4,7 +4,7 @@ import gzip
 import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from importlib.metadata import version
 from time import monotonic, perf_counter, thread_time
 from typing import Any, Literal
@@ -22,22 +22,24 @@ from relguide.contract.bodies import (
 from relguide.contract.bulk import answer_line
 from relguide.contract.flight_summary import figures, summarize
 from relguide.contract.messages import FlightRequest
+from relguide.contract.orders import commands_of
 from relguide.contract.places import Anchor, Unanchored
 from relguide.contract.recorder import recording_of
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.fans import all_fans
 from relguide.flying.flight import fly
+from relguide.flying.scripted_crew import with_crew
 from relguide.flying.verdicts import ComparedPlanner
 from relguide.learn.planners import make_planner
 from relguide.learn.words.area_words import area_words
 from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.maps.isochrones import Grid, isochrones, times_around
 from relguide.planning.deadline import LOADING, load_kernels
-from relguide.planning.outcome import Planner
+from relguide.planning.outcome import Planner, Reason
 from relguide.planning.plan import plan_at_once as exact_plan_at_once
 from relguide.planning.situation import Situation
 from relguide.units import Second
-from relguide_server.flights.flight_requests import scenario_of
+from relguide_server.flights.flight_requests import ordered_in, scenario_of
 from relguide_server.http.bodies import parse_json
 from relguide_server.http.errors import Refusal, refusal_of
 
@@ -126,7 +128,7 @@ def plan_body(
         least = LEAST_WITH_FLIGHT
     deadline = max(min(end - monotonic(), most), least)
     answered = plan_situation(situation, anchor, planner, include, deadline, form)
-    cut = answered.seconds > CUT * deadline
+    cut = answered.reason == Reason.DEADLINE.value or answered.seconds > CUT * deadline
     return replace(answered, processor=thread_time() - began, cut=cut)
 
 
@@ -248,13 +250,17 @@ def simulate(wanted: FlightRequest, planner: str | Planner) -> bytes:
     """Fly a flight to its end, as fast as it goes, and give its figures as JSON text."""
     started = perf_counter()
     name, flown, _ = scenario_of(wanted)
-    documents = fly(
+    ordered = ordered_in(wanted, flown)
+    flight_of = partial(
+        fly,
         flown,
         planner_of(planner),
         seed=wanted.seed,
         sample_period=1.0,
+        engagement=ordered.engagement,
         planner_name=planner if isinstance(planner, str) else None,
     )
+    documents = with_crew(ordered.script, flight_of, commands_of(ordered.orders))
     flight = summarize(documents)
     (ended,) = flight.ended
     about = {

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from relguide.contract.messages import Rate
+from relguide.contract.commands import Rate
 from relguide.contract.refusal import Strict
 from relguide_server.records.entries import Outcome
 

@@ -4,6 +4,7 @@ import gzip
 import json
 from itertools import pairwise
 from pathlib import Path
+from re import sub
 from typing import Any
 
 import pytest
@@ -11,10 +12,18 @@ import pytest
 from relguide.cli.flight_tables import print_flight
 from relguide.contract.flight_summary import summarize
 from relguide.contract.recorder import replay
-from relguide.flying.documents import EngagementChanged, FlightStarted, LeaderChanged, Sample
+from relguide.flying.documents import (
+    AssignmentChanged,
+    EngagementChanged,
+    FlightStarted,
+    LeaderChanged,
+    Sample,
+)
 from relguide.flying.scenarios import SCENARIOS
+from relguide.units import DEG
 from tests.command_line import NEAR, UNREACHABLE, Run, process, write
 
+CREW = str(Path(__file__).parents[3] / "examples" / "crew.jsonl")
 FIGURES = {
     "joined",
     "join_time_s",
@@ -288,7 +297,51 @@ def test_wrong_orders_and_times_are_misuse(
     assert sentence in err
 
 
-def test_standard_input_is_one_thing(run: Run) -> None:
-    code, _, err = run("fly", "-", "--orders", "-")
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (("-", "--orders", "-"), "the situation or the orders, not both"),
+        (("-", "--crew", "-"), "the situation or the crew, not both"),
+        (("fig_6b", "--orders", "-", "--crew", "-"), "the orders or the crew, not both"),
+    ],
+)
+def test_standard_input_is_one_thing(run: Run, options: tuple[str, ...], sentence: str) -> None:
+    code, _, err = run("fly", *options)
     assert code == 2
-    assert "the situation or the orders, not both" in err
+    assert sentence in err
+
+
+@pytest.mark.slow
+def test_a_crew_flies_all_steps_and_its_recording_is_flown_again_alike(run: Run) -> None:
+    """By the example's crew, which designates, accepts, engages, overrides, disconnects, engages."""
+    code, out, _ = run("fly", "fig_6b", "--crew", CREW, "--seed", "7", "--record", "a.jsonl")
+    assert (code, json.loads(out)["joined"]) == (0, True)
+    said = [d for d in replay("a.jsonl") if isinstance(d, EngagementChanged | AssignmentChanged)]
+    steps = [one.engagement for one in said if isinstance(one, EngagementChanged)]
+    assert steps == ["designated", "armed", "engaged", "off", "designated", "armed", "engaged"]
+    assigned = [one for one in said if isinstance(one, AssignmentChanged)]
+    assert [round(one.max_bank / DEG) for one in assigned] == [20] * 5
+    assert [one.selected_tas for one in assigned][1:3] == [(230.0,), ()]
+    assert assigned[-1].slot_distance == 12_000.0
+    assert run("fly", "fig_6b", "--orders", "a.jsonl", "--record", "b.jsonl")[0] == 0
+    assert timeless("a.jsonl") == timeless("b.jsonl")
+    code, _, err = run("fly", "fig_6b", "--crew", "a.jsonl")
+    assert (code, "a.jsonl, line 1: This must have one of engagement" in err) == (2, True)
+
+
+def timeless(file: str) -> list[str]:
+    """The lines of a recording without what plans took to compute."""
+    return [sub(r'"compute_ms":[^,}]*', "", line) for line in Path(file).read_text().splitlines()]
+
+
+@pytest.mark.slow
+def test_a_pilot_model_flies_along_the_bars(run: Run) -> None:
+    code, out, _ = run("fly", write(NEAR), "--director", "--json")
+    figures = json.loads(out)
+    assert (code, set(figures)) == (0, FIGURES | {"by_hand"})
+    by_hand = figures["by_hand"]
+    assert set(by_hand) == {"time_s", "with_bars_s", "within_bar_s", "tube_m"}
+    assert by_hand["time_s"] == by_hand["with_bars_s"] == figures["simulated_s"]
+    assert 0.5 < by_hand["within_bar_s"] / by_hand["time_s"] < 1.0
+    code, out, _ = run("fly", write(NEAR), "--director", "--table")
+    assert "the bar within 2° for" in out

@@ -5,8 +5,8 @@ from typing import Any, get_args
 import pytest
 from pydantic import TypeAdapter
 
+from relguide.contract.commands import Command
 from relguide.contract.messages import (
-    Command,
     FlightRequest,
     ScenarioFlightRequest,
     SituationFlightRequest,
@@ -35,6 +35,15 @@ def test_a_flight_is_asked_for_by_scenario_or_situation() -> None:
         {"command": "leader_heading", "heading_deg": 135, "direction": "left"},
         {"command": "leader_speed", "tas_mps": 200},
         {"command": "intent_known", "known": True},
+        {"command": "pursuer_bank", "bank_deg": 20},
+        {"command": "pursuer_speed", "tas_mps": 230},
+        {"command": "pursuer_speed", "tas_mps": None},
+        {"command": "set_spacing", "slot_distance_m": 12000},
+        {"command": "set_spacing", "slot_distance_m": 12000, "min_separation_m": 5556},
+        {"command": "set_autopilot", "on": False},
+        {"command": "set_director", "on": True, "ident": "P"},
+        {"command": "stick", "roll": -1},
+        {"command": "stick", "roll": 0.5, "pitch": 0.25},
     ],
 )
 def test_commands_are_read(command: dict[str, Any]) -> None:
@@ -46,4 +55,4 @@ def test_commands_are_read(command: dict[str, Any]) -> None:
 
 def test_every_command_has_its_name() -> None:
     models = get_args(get_args(Command)[0])
-    assert len({get_args(m.model_fields["command"].annotation)[0] for m in models}) == 10
+    assert len({get_args(m.model_fields["command"].annotation)[0] for m in models}) == 16

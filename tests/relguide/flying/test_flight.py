@@ -421,3 +421,12 @@ def test_ground_track_and_speed_are_matched_in_a_cross_wind_through_a_turn() -> 
     assert followed[-1].t > 1_400.0
     assert max(abs(s.guidance.cross_track) for s in followed) < 0.1 * NM
     assert flight.result.losses == ()
+
+
+@pytest.mark.parametrize(("x", "y"), [(1e6, 0.0), (0.0, -999e3)])
+def test_a_flight_that_begins_at_the_edge_of_the_plane_is_refused(x: float, y: float) -> None:
+    """A plan from there is answered; a flight would leave the plane at once."""
+    situation = FIG_6B.situation
+    away = replace(situation, pursuer=replace(situation.pursuer, x=x, y=y))
+    with pytest.raises(ValueError, match=r"^[xy] of PURSUER must lie in -998000 … 998000 m"):
+        own_scenario(away)

@@ -9,12 +9,21 @@ import pytest
 from relguide.flying.air import Air
 from relguide.flying.airframe import airframe
 from relguide.flying.documents import FlightEnded, FlightStarted, Sample, Unable
-from relguide.flying.fleet import EDGE, OFF_HEADING, OFF_INTENT, Fleet, limits_of
+from relguide.flying.fleet import OFF_HEADING, OFF_INTENT, Fleet, limits_of
 from relguide.flying.flight import fly
 from relguide.flying.pursuit import begin_pursuit
 from relguide.flying.scenarios import scenario
 from relguide.flying.simulation import simulate
-from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, Recorded, World
+from relguide.flying.world import (
+    FLOWN_POSITION,
+    Aircraft,
+    Declared,
+    Guided,
+    Link,
+    Pilot,
+    Recorded,
+    World,
+)
 from relguide.kernels.flight.energy import most_acceleration
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
 from relguide.planning.intent import FlyStraight, TurnTo
@@ -219,7 +228,7 @@ def test_least_distances_are_those_within_the_second() -> None:
 
 
 def test_the_edge_of_the_plane_is_noticed_before_plans_are_refused_for_it() -> None:
-    x = POSITION.high - EDGE - 500.0
+    x = FLOWN_POSITION.high - 500.0
     fleet = Fleet(World(aircraft=(aircraft("A"), aircraft("B", x)), links=()), 0.05)
     assert fleet.beyond_edge() == ""
     fly_seconds(fleet, 3)
@@ -285,7 +294,7 @@ def test_a_chain_of_two_links_joins_link_by_link() -> None:
 
 
 def test_a_flight_ends_with_a_sentence_where_an_aircraft_leaves_the_plane() -> None:
-    x = POSITION.high - EDGE - 5_000.0
+    x = FLOWN_POSITION.high - 5_000.0
     world = World(
         aircraft=(aircraft("P", x - 40_000.0, tas=230.0), aircraft("L", x, pilot=Declared())),
         links=(link("P", "L"),),

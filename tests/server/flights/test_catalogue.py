@@ -1,6 +1,7 @@
 """What can be flown for real: the library's scenarios and situations of one's own."""
 
 import time
+from itertools import islice
 
 import pytest
 from relguide_server.app import create_app
@@ -12,7 +13,7 @@ from relguide_server.settings import ServiceSettings
 from relguide.contract.messages import SituationFlightRequest
 from relguide.contract.protocol import PROTOCOL
 from relguide.contract.refusal import parse
-from relguide.flying.documents import FlightStarted, LeaderChanged
+from relguide.flying.documents import CommandGiven, FlightStarted, LeaderChanged, Sample
 from relguide.flying.orders import no_commands
 from relguide.planning.intent import TurnTo
 from relguide.planning.plan import plan
@@ -64,6 +65,26 @@ def test_a_situation_of_ones_own_flies() -> None:
         refused = client.post("/api/v1/flights", json=wrong)
         assert refused.status_code == 422
         assert refused.json()["errors"][0]["path"] == "situation.slot_distance_m"
+
+
+def test_a_crew_is_asked_for_with_the_flight_and_begins_as_it_says() -> None:
+    crew = [{"t_s": 1, "engagement": "designated"}]
+    begins = {"t_s": 0, "engagement": "engaged"}
+    orders = [{"t_s": 2, "autopilot": False}]
+    for asked, engagement, given in (
+        ({}, "engaged", []),
+        ({"orders": orders}, "engaged", [2.0]),
+        ({"crew": crew, "orders": orders}, "off", [1.0, 2.0]),
+        ({"crew": []}, "off", []),
+        ({"crew": [begins]}, "engaged", []),
+        ({"crew": crew, "engagement": "armed"}, "armed", [1.0]),
+    ):
+        wanted = parse(NewFlight, {"scenario": "fig_6b", **asked}).root
+        departure = library_catalogue(plan, "exact").find(wanted)
+        flown = list(islice(departure.source(no_commands), 100))
+        first = next(document for document in flown if isinstance(document, Sample))
+        assert first.guidance[0].engagement == engagement
+        assert [one.t for one in flown if isinstance(one, CommandGiven)] == given
 
 
 def test_a_leader_breaks_its_word_whoever_watches() -> None:

@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Iterator
+from functools import partial
 from importlib.metadata import version
 
 import pytest
@@ -11,9 +12,12 @@ from relguide_server.planning.simulations import AT_A_TIME, EXAMPLE
 from relguide import plan
 from relguide.contract.flight_summary import figures, summarize
 from relguide.contract.messages import ScenarioFlightRequest
+from relguide.contract.orders import CrewOrderBody, OrderBody, commands_of, crew_order, order_of
+from relguide.contract.refusal import parse
 from relguide.contract.simulation_bodies import MAX_SIMULATIONS, SimulationAnswer
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
+from relguide.flying.scripted_crew import with_crew
 from tests.bodies import AMID, BODY, changed
 from tests.server.serving import TestClient, ideal_app
 
@@ -83,6 +87,60 @@ def test_what_cannot_be_flown_is_refused_by_its_path(
     answer = client.post(PATH, json=body)
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["path"] == path
+
+
+@pytest.mark.slow
+def test_a_crew_that_reacts_and_a_pilot_model_fly_as_by_the_command(client: TestClient) -> None:
+    crew = [
+        {"t_s": 5, "engagement": "designated"},
+        {"on": "proposed", "after_s": 5, "engagement": "armed"},
+        {"on": "armed", "after_s": 10, "engagement": "engaged"},
+    ]
+    orders = [{"t_s": 100, "leader_tas_mps": 195}, {"t_s": 120, "pursuer_max_bank_deg": 20}]
+    late, by_hand, steady, clumsy = client.post(
+        PATH,
+        json=[
+            {"scenario": "fig_6b", "crew": crew, "orders": orders},
+            {"scenario": "fig_6b", "by_hand": True},
+            {"scenario": "fig_6b", "by_hand": {"remnant": 0.0}},
+            {"scenario": "fig_6b", "by_hand": {"bandwidth_radps": 0.6, "delay_s": 0.6}},
+        ],
+    ).json()
+    script = [crew_order(parse(CrewOrderBody, line).root) for line in crew]
+    given = [order_of(parse(OrderBody, line).root) for line in orders]
+    flight = partial(fly, scenario("fig_6b"), plan, engagement="off", sample_period=1.0)
+    expected = figures(summarize(with_crew(script, flight, commands_of(given))))
+    assert {name: late[name] for name in expected} == expected
+    assert late["joined"]
+    assert "by_hand" not in late
+    for one in (by_hand, steady, clumsy):
+        assert SimulationAnswer.model_validate(one).by_hand is not None
+    inside = [one["by_hand"]["within_bar_s"] for one in (clumsy, by_hand, steady)]
+    assert inside == sorted(inside)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "path"),
+    [
+        ({"by_hand": 1}, "by_hand"),
+        ({"by_hand": {"delay_s": 2.0}}, "by_hand.delay_s"),
+        ({"by_hand": {"delay": 0.3}}, "by_hand.delay"),
+        ({"crew": [{"engagement": "armed"}]}, "crew[0]"),
+        ({"crew": [{"t_s": 1, "intent_known": True}]}, "crew[0]"),
+        ({"crew": [{"t_s": 1, "engagement": "on"}]}, "crew[0].engagement"),
+        ({"crew": [{"t_s": 1, "autopilot": False, "ident": "LEADER"}]}, "crew[0].ident"),
+        ({"orders": [{"on": "armed", "autopilot": False}]}, "orders[0].on"),
+        ({"orders": [{"t_s": 1, "leader_tas_mps": 20}]}, "orders[0].leader_tas_mps"),
+        ({"orders": [{"t_s": 9, "director": True}, {"t_s": 8, "director": True}]}, "orders[1].t_s"),
+        ({"orders": [7]}, "orders[0]"),
+    ],
+)
+def test_what_cannot_be_ordered_is_refused_by_its_path(
+    client: TestClient, wanted: dict[str, object], path: str
+) -> None:
+    answer = client.post(PATH, json=[{"scenario": "fig_6b", **wanted}])
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["path"] == f"[0].{path}"
 
 
 @pytest.mark.slow

@@ -1,12 +1,13 @@
 """Situations are read as the contract's models read them, plain or not."""
 
 import json
+from time import monotonic
 from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from relguide_server.http.errors import Refusal
-from relguide_server.planning.tasks import read_situation
+from relguide_server.planning.tasks import plan_body, read_situation
 
 from relguide.client.bodies import body_of
 from relguide.contract.bodies import situation_from_json
@@ -62,3 +63,35 @@ def test_what_is_no_json_is_refused(text: bytes) -> None:
     with pytest.raises(Refusal) as refused:
         read_situation(text)
     assert refused.value.status_code == 400
+
+
+SLOW = {
+    "pursuer": {
+        "x_m": -396_611.0,
+        "y_m": -883_764.0,
+        "heading_deg": 0.0,
+        "tas_mps": 397.0,
+        "max_bank_deg": 60.0,
+    },
+    "leader": {
+        "x_m": 0.0,
+        "y_m": 0.0,
+        "heading_deg": 90.0,
+        "tas_mps": 400.0,
+        "intent": [
+            {"turn_to_heading_deg": -146.0, "direction": "right", "bank_deg": 7.0},
+            {"straight_s": 600.0},
+            {"turn_to_heading_deg": 360.0, "direction": "left", "bank_deg": 1.0},
+        ],
+    },
+    "slot_distance_m": 1000.0,
+    "min_separation_m": 1000.0,
+}
+"""The search for a way round takes more than a second, and there is none."""
+
+
+def test_what_was_not_found_by_its_time_was_cut_short_however_little_it_took() -> None:
+    tried = plan_body(json.dumps(SLOW).encode(), "exact", (), monotonic() + 60.0, 0.05)
+    assert (tried.reason, tried.cut) == ("deadline", True)
+    whole = plan_body(json.dumps(SLOW).encode(), "exact", (), monotonic() + 60.0, 50.0)
+    assert (whole.reason, whole.cut) == ("separation_unavoidable", False)
