@@ -33,7 +33,7 @@ from relguide.flying.surveillance import EXACT, Surveillance
 from relguide.flying.tracks import RecordedTrack
 from relguide.flying.wind_profile import WindProfile
 from relguide.flying.world import FLOWN_POSITION, Aircraft, Declared, Guided, Link, Recorded, World
-from relguide.planning.aircraft import Traffic
+from relguide.planning.aircraft import Leader, Pursuer, Traffic
 from relguide.planning.cells import Cell
 from relguide.planning.inputs import (
     expect,
@@ -142,9 +142,12 @@ class Scenario:
         if number("after_joining", self.after_joining) < 0.0:
             raise ValueError(f"after_joining must be 0 s or more, not {self.after_joining}.")
         pursuer, leader = self.situation.pursuer, self.situation.leader
-        begun = {self.pursuer_ident: pursuer, self.leader_ident: leader}
-        others = (one for one in self.situation.others if isinstance(one, Traffic))
-        for ident, one in (*begun.items(), *((other.ident, other) for other in others)):
+        begin: list[tuple[str, Pursuer | Leader | Traffic]] = [
+            (self.pursuer_ident, pursuer),
+            (self.leader_ident, leader),
+        ]
+        begin += [(one.ident, one) for one in self.situation.others if isinstance(one, Traffic)]
+        for ident, one in begin:
             expect_within(f"x of {ident}", one.x, *FLOWN_POSITION)
             expect_within(f"y of {ident}", one.y, *FLOWN_POSITION)
         airframe(self.pursuer_type).expect_weight("pursuer_weight", self.pursuer_weight)
