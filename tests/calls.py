@@ -41,6 +41,7 @@ from relguide import (
     Recorded,
     RecordedTrack,
     Scenario,
+    ScriptedCrew,
     SetAutopilot,
     SetDirector,
     SetEngagement,
@@ -74,6 +75,7 @@ from relguide import (
     simulate,
     soonest_first,
     wind_from,
+    with_crew,
 )
 from relguide.flying.surveillance import EXACT
 from relguide.planning.frames import LocalPlane
@@ -302,6 +304,15 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "PursuerHeading": (PursuerHeading, {"heading": 1.0}),
     "Recorded": (Recorded, {"track": TRACK}),
     "CrewOrder": (CrewOrder, {"command": SetAutopilot(on=True), "on": "armed", "after": 3.0}),
+    "ScriptedCrew": (ScriptedCrew, {"script": [CrewOrder(command=SetAutopilot(on=True))]}),
+    "with_crew": (
+        with_crew,
+        {
+            "script": [CrewOrder(command=SetAutopilot(on=True))],
+            "flown": lambda commands: iter(()),
+            "commands": lambda t: (),
+        },
+    ),
     "PursuerBank": (PursuerBank, {"bank": 0.3}),
     "PursuerSpeed": (PursuerSpeed, {"tas": 220.0}),
     "SetAutopilot": (SetAutopilot, {"on": True}),

@@ -1,6 +1,6 @@
 """A crew that reacts: it waits for what is said of its flight, and orders what its script says."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -17,7 +17,7 @@ from relguide.flying.documents import (
 )
 from relguide.flying.engagement import MAY_BECOME, Engagement
 from relguide.flying.orders import Command, CrewCommand, SetEngagement, no_commands
-from relguide.planning.inputs import expect, number
+from relguide.planning.inputs import expect, expect_function, number
 from relguide.planning.reprs import as_code
 from relguide.units import Second
 
@@ -77,8 +77,9 @@ class ScriptedCrew:
     withdrawn. An engagement that waits is forgotten when another comes first.
     """
 
-    def __init__(self, script: Iterable[CrewOrder]) -> None:
+    def __init__(self, script: Sequence[CrewOrder]) -> None:
         """A crew that knows its script, and has seen nothing."""
+        expect("script", script, list, tuple)
         self._script = tuple(script)
         for order in self._script:
             expect("An order of a crew", order, CrewOrder)
@@ -163,7 +164,7 @@ class ScriptedCrew:
 
 
 def with_crew(
-    script: Iterable[CrewOrder],
+    script: Sequence[CrewOrder],
     flown: Callable[..., Iterator[Document]],
     commands: Commands = no_commands,
 ) -> Iterator[Document]:
@@ -175,6 +176,8 @@ def with_crew(
         commands: what else is ordered.
     """
     crew = ScriptedCrew(script)
+    expect_function("flown", flown)
+    expect_function("commands", commands)
     return crew.follow(flown(commands=both(commands, crew.commands)))
 
 
