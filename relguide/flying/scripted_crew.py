@@ -61,7 +61,8 @@ class CrewOrder:
         expect("command", self.command, *get_args(CrewCommand))
         if not isinstance(self.on, str) or self.on not in get_args(Cue):
             raise ValueError(f"on must be one of {', '.join(get_args(Cue))}, not {self.on!r}.")
-        if number("after", self.after) < 0.0:
+        object.__setattr__(self, "after", number("after", self.after))
+        if self.after < 0.0:
             raise ValueError(f"after must be 0 s or more, not {self.after:g} s.")
 
 
