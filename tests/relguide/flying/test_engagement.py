@@ -163,7 +163,7 @@ def test_an_accepted_proposal_that_can_no_longer_be_flown_disarms() -> None:
 
 
 @pytest.mark.parametrize(
-    "order", [PursuerHeading(heading=93.0 * DEG), LeaderSpeed(tas=197.0)], ids=["own", "leader"]
+    "order", [PursuerHeading(heading=110.0 * DEG), LeaderSpeed(tas=170.0)], ids=["own", "leader"]
 )
 def test_an_accepted_proposal_lapses_when_either_drifts_slowly_from_it(order: Command) -> None:
     """Each new proposal is nearly the one before, but no longer the one that was accepted."""
