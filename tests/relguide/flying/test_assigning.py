@@ -63,14 +63,14 @@ def test_while_it_converges_another_d_is_planned_for_at_once(miles: float) -> No
         (PursuerBank(bank=40.0 * DEG), "30° at most"),
         (PursuerSpeed(tas=600.0 * KT), "277 to 481 kt"),
         (SetSpacing(min_separation=7.0 * NM), "less than d_min"),
-        (SetSpacing(slot_distance=14.0 * NM, min_separation=13.5 * NM), "apart"),
+        (SetSpacing(slot_distance=14.0 * NM, min_separation=13.5 * NM), "25,002 m"),
     ],
     ids=["bank", "speed", "clearance", "no plan"],
 )
 def test_what_cannot_be_flown_is_refused_and_what_was_flown_is_flown_on(
     order: Command, words: str
 ) -> None:
-    plain, asked = fly_whole(FIG_6B), fly_whole(FIG_6B, (500.0, order))
+    plain, asked = fly_whole(FIG_6B), fly_whole(FIG_6B, (850.0, order))
     (refused,) = asked.of(AssignmentChanged)
     assert words in refused.message
     assert "refused" in refused.message.lower()
