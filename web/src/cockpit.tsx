@@ -35,6 +35,7 @@ const PlannersPanel = late(
 );
 const TrafficPanel = late(async () => (await import("./panels/traffic")).Traffic, "");
 const Scene = late(async () => (await import("./scene/scene")).Scene, "The scene is on its way.");
+const Pfd = late(async () => (await import("./pfd/pfd")).PrimaryFlightDisplay, "");
 const Help = late(async () => (await import("./panels/help")).Help, "");
 const Charts = late(
   async () => (await import("./charts/charts")).Charts,
@@ -52,6 +53,9 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
   const narrow = useMedia(NARROW);
   const small = useMedia(SMALL);
   const isMap = session.ndMode.value === "PLAN";
+  const isByHand = session.shown.numbers.value.sample?.autopilot === false;
+  const isFlown = session.pfdOpen.value || isByHand;
+  const pfd = isFlown && !isMap && <Pfd session={session} />;
   return (
     <>
       <Header session={session}>
@@ -75,6 +79,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
               )}
             </Captioned>
           </div>
+          {small.value && pfd}
           {!isMap && <Captions {...props} />}
           <div class="below">
             {small.value && !isMap && <Engage session={session} actions={actions} />}
@@ -91,12 +96,13 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
         ) : (
           <section class="workstation" aria-label="Scene and panels">
             <div class="beside">
+              {!small.value && pfd}
               {session.debriefOpen.value ? (
                 <Debrief {...props} />
               ) : session.chartsOpen.value ? (
                 <Charts session={session} actions={actions} />
               ) : (
-                <Scene session={session} actions={actions} />
+                !(isFlown && narrow.value) && <Scene session={session} actions={actions} />
               )}
               <OutageNotice session={session} actions={actions} />
             </div>

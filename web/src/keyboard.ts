@@ -50,6 +50,7 @@ const KEYS: Record<string, (session: Session, actions: Actions) => Act> = {
       actions.setDirector(flight.moment.value.now?.director !== true),
   t: (session) => (isMap(session) ? null : () => chooseNext(session)),
   g: ({ chartsOpen }) => set(chartsOpen, !chartsOpen.value),
+  i: ({ pfdOpen }) => set(pfdOpen, !pfdOpen.value),
   m: ({ sceneMaximised }) => set(sceneMaximised, !sceneMaximised.value),
   "?": ({ helpOpen }) => set(helpOpen, !helpOpen.value),
   Escape: ({ helpOpen, recordsOpen, exportOpen, sceneMaximised }) => {

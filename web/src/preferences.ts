@@ -5,8 +5,11 @@ import type { Session } from "./session";
 
 const KEY = "relguide";
 
-type Preferences = Pick<Session, "letterKeys" | "sound" | "distinctColours" | "captions">;
-const NAMES = ["letterKeys", "sound", "distinctColours", "captions"] as const;
+type Preferences = Pick<
+  Session,
+  "letterKeys" | "sound" | "distinctColours" | "captions" | "pfdOpen"
+>;
+const NAMES = ["letterKeys", "sound", "distinctColours", "captions", "pfdOpen"] as const;
 
 /** Takes up what was chosen before, keeps what is chosen from now on, and shows it. */
 export function keepPreferences(session: Preferences): void {

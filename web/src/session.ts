@@ -81,6 +81,8 @@ export interface Session {
   readonly lost: Signal<readonly { readonly from: number; readonly to: number }[]>;
   /** Four planners side by side. */
   readonly planners: Planners;
+  /** Whether the primary flight display was asked for; it is shown in any case while the crew flies. */
+  readonly pfdOpen: Signal<boolean>;
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
@@ -189,6 +191,7 @@ export function createSession(
     ndRange: signal(40),
     ndAuto: signal(true),
     map: createEditor(comparison.ghost),
+    pfdOpen: signal(false),
     sceneMaximised: signal(false),
     helpOpen: signal(false),
     letterKeys: signal(true),

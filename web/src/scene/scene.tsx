@@ -30,6 +30,7 @@ import type { Size } from "./glass";
 import { Poster, sightsOf } from "./poster";
 import { dress, isDark, listen, press } from "./server-page";
 import { Writing } from "./writing";
+import "./scene.css";
 
 /** What each view shows. */
 const SHOWS: Record<ViewName, string> = {

@@ -215,7 +215,10 @@ export function numbersOf(flight: Moment): Numbers {
     crossTrackWords: shown === null ? "" : crossTrackText(shown.cross_track_m),
     timing: shown === null ? null : timingOf(shown),
     clock: sample === null ? "––:––" : formatClock(sample.t_s),
-    commandedSpeed: guided === null ? "" : formatKnots(guided.commanded_tas_mps),
+    commandedSpeed:
+      guided === null
+        ? ""
+        : formatKnots(flight.assignment?.selected_tas_mps[0] ?? guided.commanded_tas_mps),
     leaderBearing: shown === null ? "" : formatHeading(bearingTo(shown.pursuer, shown.leader)),
     leaderSpeed: shown === null ? "" : formatKnots(shown.leader.ground_speed_mps),
   };
