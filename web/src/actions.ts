@@ -19,7 +19,6 @@ import type { Guidance } from "./store/states";
 import { OTHER_VERSION, openStream, type Stream } from "./stream";
 import { lookAs } from "./timeline/link";
 import { createMoves } from "./timeline/moves";
-import { readFile, titleOf } from "./timeline/opening";
 import {
   formatClock,
   formatHeading,
@@ -67,6 +66,9 @@ const TOO_EARLY: Partial<Record<Guidance, string>> = {
   infeasible: "There is no path to accept now: it is looked for again by itself.",
   data_lost: "Nothing is heard of the leader: a path is proposed when it is.",
 };
+
+/** What reads recordings is fetched with the first one. */
+const reading = () => import("./timeline/opening");
 
 /** A heading as it will be flown, and as it was given where that is beyond a full turn. */
 function sayHeading(heading: number): string {
@@ -163,7 +165,7 @@ export function createActions(
   async function lookBack(status: FlightStatus, t: number | null): Promise<void> {
     if (status.t_s > BEGUN && status.recorded) {
       const answer = await readRecord(status.id);
-      const read = answer.kind === "done" ? await readFile(answer.value) : null;
+      const read = answer.kind === "done" ? await (await reading()).readFile(answer.value) : null;
       await beginning(status.id);
       if (session.status.value?.id !== status.id) return; // another one is shown by now
       if (read?.kind === "read") store.merge(read.documents, performance.now());
@@ -200,6 +202,7 @@ export function createActions(
   /** Shows a recording in place of the flight; what is wrong with it is said, and all stays as it was. */
   async function replay(file: Blob, about: Pick<Recording, "id" | "from">): Promise<boolean> {
     say("sending", "Reading the recording…");
+    const { readFile, titleOf } = await reading();
     const read = await readFile(file);
     if (read.kind === "refused") {
       say("refused", read.sentence);

@@ -3,8 +3,8 @@
 import { type Deflection, shaped } from "./stick";
 
 /** What is said while none is there. */
-export const PRESS_A_BUTTON = "Press a button on the controller, if you have one.";
-export const NOT_SECURE = "A browser reads controllers only over https, or on the same machine.";
+export const PRESS_A_BUTTON = "Controller: press a button on it.";
+export const NOT_SECURE = "A controller is read only over https, or on this machine.";
 
 /** How far a controller's stick is deflected: pulled back is nose up; null if there is none. */
 export function readController(

@@ -127,6 +127,7 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
 
   function step(way: number): void {
     wanted.value = way === 0 ? 0 : nextStep(wanted.value ?? bankNow() ?? 0, way);
+    byKeys = { ...byKeys, roll: 0 }; // a key that springs back still holds nothing
     move(performance.now());
   }
 

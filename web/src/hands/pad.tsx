@@ -25,11 +25,12 @@ export function StickPad({ session, actions }: { session: Session; actions: Acti
 function Stick({ hands, actions }: { hands: HandFlying; actions: Actions }) {
   const wanted = hands.wanted.value;
   return (
-    <Panel name="stick" title="Stick" aside={<Measured measure={hands.measure.value} />}>
+    <Panel name="stick" title="Stick">
       <div class="stick-parts">
         <Pad hands={hands} />
         <div class="stick-side">
           <p class="hint">{hands.controller.value}</p>
+          <p class="hint">{wanted === null ? "" : `To ${sayBank(wanted)}.`}</p>
           <fieldset class="choice">
             <legend class="visually-hidden">Bank in steps of 5°</legend>
             <button type="button" onClick={() => hands.step(-1)} aria-label="5° more to the left">
@@ -42,12 +43,12 @@ function Stick({ hands, actions }: { hands: HandFlying; actions: Actions }) {
               +5°
             </button>
           </fieldset>
-          <p class="hint">{wanted === null ? "Stick as you hold it" : `To ${sayBank(wanted)}`}</p>
           <button type="button" onClick={() => actions.setAutopilot(true)}>
             Autopilot flies
           </button>
         </div>
       </div>
+      <Measured measure={hands.measure.value} />
       <Said hands={hands} />
     </Panel>
   );
@@ -113,11 +114,14 @@ function Measured({ measure }: { measure: Measure }) {
   const delay =
     half === null || most === null
       ? ""
-      : ` · ${Math.round(half)} ms to the picture (95 %: ${Math.round(most)})`;
+      : ` · ${Math.round(half)} ms to the picture, 95 %: ${Math.round(most)} ms`;
   return (
-    <span class="note stick-measure" title="Measured by this page, the last 200 moves">
+    <p
+      class="hint stick-measure"
+      title="From a move of the stick to the first frame with it, of the last 200; by this page"
+    >
       {framesPerSecond} frames/s{delay}
-    </span>
+    </p>
   );
 }
 

@@ -196,6 +196,11 @@ describe("keys", () => {
     expect(hands.value?.wanted.value).toBe(0);
     press("ArrowLeft"); // a hand on the stick takes over
     expect(hands.value?.wanted.value).toBeNull();
+    vi.advanceTimersByTime(500);
+    press("ArrowLeft", {}, "keyup");
+    press("5"); // while it springs back
+    vi.advanceTimersByTime(100);
+    expect(hands.value?.wanted.value).toBe(0);
   });
 
   test("belong to a field, to a dialog, and to a clock that stands", async () => {
@@ -263,7 +268,7 @@ describe("neutral", () => {
     vi.stubGlobal("navigator", { getGamepads: () => [null] });
     vi.advanceTimersByTime(100);
     expect(page.rolls().at(-1)).toBe(0);
-    expect(page.session.hands.value?.controller.value).toContain("Press a button");
+    expect(page.session.hands.value?.controller.value).toContain("press a button");
     vi.restoreAllMocks();
   });
 

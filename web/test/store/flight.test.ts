@@ -401,7 +401,7 @@ describe("engagement", () => {
     const lapsed = sample(9, { ...state, engagement: "designated" });
     store.receive(tick(9, [changed(9, "armed", "designated"), lapsed]), 9000);
     expect(prompts()).toEqual(["PATH CHANGED – ACCEPT AGAIN"]);
-    expect(numbersOf(store.flight.moment.value).lapsed).toBe(".");
+    expect(numbersOf(store.flight.moment.value).lapsed).toBe("From armed to designated.");
     store.receive(tick(12, [changed(12, "designated", "armed")]), 12_000);
     expect(numbersOf(store.flight.moment.value).lapsed).toBe("");
   });
