@@ -58,6 +58,7 @@ if typing.TYPE_CHECKING:
     from relguide.flying.orders import LeaderSpeed as LeaderSpeed
     from relguide.flying.orders import PursuerHeading as PursuerHeading
     from relguide.flying.orders import SetEngagement as SetEngagement
+    from relguide.flying.pilot_model import PilotModel as PilotModel
     from relguide.flying.queues import queue_up as queue_up
     from relguide.flying.queues import soonest_first as soonest_first
     from relguide.flying.recordings.files import load_track as load_track
@@ -161,6 +162,7 @@ _HOMES = {
     "LeaderSpeed": "relguide.flying.orders",
     "PursuerHeading": "relguide.flying.orders",
     "SetEngagement": "relguide.flying.orders",
+    "PilotModel": "relguide.flying.pilot_model",
     "queue_up": "relguide.flying.queues",
     "soonest_first": "relguide.flying.queues",
     "own_scenario": "relguide.flying.scenarios",
@@ -276,6 +278,7 @@ __all__ = [
     "Optimality",
     "OptimalityReport",
     "Picture",
+    "PilotModel",
     "Plan",
     "PlanChanged",
     "PlanProposed",

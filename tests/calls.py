@@ -30,6 +30,7 @@ from relguide import (
     LeaderSpeed,
     LevelChange,
     Link,
+    PilotModel,
     Plan,
     Polygon,
     Pursuer,
@@ -229,12 +230,14 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
             "profile": None,
             "believed_air": None,
             "surveillance": EXACT,
+            "by_hand": PilotModel(),
             "ahead": (),
             "followers": (),
             "duration_limit": 1.0,
             "after_joining": 0.0,
         },
     ),
+    "PilotModel": (PilotModel, {f.name: getattr(PilotModel(), f.name) for f in fields(PilotModel)}),
     "Follower": (
         Follower,
         {

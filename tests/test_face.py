@@ -42,6 +42,7 @@ def test_what_is_used_beside_plan_is_loaded_when_asked_for() -> None:
             "flying.airframe": ("Airframe", "airframe", "load_airframe"),
             "flying.flight": ("DeclaredLeader", "Scenario", "fly"),
             "flying.followers": ("Follower",),
+            "flying.pilot_model": ("PilotModel",),
             "flying.queues": ("queue_up", "soonest_first"),
             "flying.guidance.settings": ("Settings", "load_settings"),
             "flying.orders": (

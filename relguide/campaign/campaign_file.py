@@ -75,7 +75,7 @@ ROUGH: Mapping[str, Distribution] = {
 PILOTS: Mapping[str, Distribution] = {
     "pilot_bandwidth_radps": Uniform(0.5, 1.5),
     "pilot_delay_s": Uniform(0.15, 0.45),
-    "pilot_remnant": Uniform(0.01, 0.03),
+    "pilot_remnant_share": Uniform(0.01, 0.03),
     "pilot_threshold_deg": Uniform(0.5, 1.5),
     "pilot_reaction_s": Uniform(0.75, 2.25),
 }

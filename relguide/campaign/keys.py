@@ -204,7 +204,7 @@ KEYS: Mapping[str, Key] = {
     "loss_share": Key(LOSS_SHARE, _seen("loss_share"), "of reports"),
     "pilot_bandwidth_radps": Key(BANDWIDTH, _pilot("bandwidth"), "by hand: ω_c"),
     "pilot_delay_s": Key(DELAY, _pilot("delay"), "by hand: τ"),
-    "pilot_remnant": Key(REMNANT, _pilot("remnant"), "by hand: its noise"),
+    "pilot_remnant_share": Key(REMNANT, _pilot("remnant"), "by hand: its noise"),
     "pilot_threshold_deg": Key(
         THRESHOLD, _pilot("threshold", DEG), "by hand: errors it lets stand"
     ),

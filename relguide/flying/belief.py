@@ -131,6 +131,8 @@ class Belief:
     """All other aircraft."""
     cells: tuple[Cell, ...] = ()
     """Weather to be kept out of, as it is now."""
+    by_hand: bool = False
+    """Whether the crew flies it by hand: it may not fly what guidance asks."""
 
     @cached_property
     def height(self) -> Metre | None:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from relguide.kernels.flight import by_hand
 from relguide.kernels.flight.autopilot import ROLL_KD, ROLL_KP
-from relguide.planning.inputs import Range, expect_within
+from relguide.planning.inputs import Range, expect_within, number
 from relguide.planning.reprs import as_code
 from relguide.units import DEG, Radian, RadianPerSecond, Second
 
@@ -64,7 +64,9 @@ class PilotModel:
             ("reaction", REACTION, 1.0),
             ("lead", LEAD, 1.0),
         ):
-            expect_within(name, getattr(self, name) / unit, *limits)
+            value = number(name, getattr(self, name))
+            expect_within(name, value / unit, *limits)
+            object.__setattr__(self, name, value)
 
     @classmethod
     def perfect(cls) -> Self:

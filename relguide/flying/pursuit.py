@@ -236,6 +236,14 @@ def keep_margin(one: Pursuit, belief: Belief) -> None:
         one.assignment = replace(one.assignment, margin=margin)
 
 
+def as_it_is_flown(one: Pursuit, belief: Belief) -> Belief:
+    """What is believed, with the crew's part: the speed that it selected, and whether it flies."""
+    limits = one.assignment.can(belief.limits)
+    if one.autopilot and limits is belief.limits:
+        return belief
+    return replace(belief, limits=limits, by_hand=not one.autopilot)
+
+
 def fit_to_level(one: Pursuit, fleet: Fleet) -> None:
     """Ask for what can be flown at the present level: not so fast, or slower than before."""
     limits = fleet.believed(one.pursuer)

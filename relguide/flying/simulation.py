@@ -6,7 +6,6 @@ Everything else that flies a plan, live or not, iterates over these documents.
 """
 
 from collections.abc import Callable, Collection, Generator, Iterable, Iterator
-from dataclasses import replace
 from functools import partial
 from itertools import count
 from typing import get_args
@@ -58,7 +57,13 @@ from relguide.flying.orders import (
     no_commands,
     order_fault,
 )
-from relguide.flying.pursuit import Pursuit, begin_pursuit, fit_to_level, keep_margin
+from relguide.flying.pursuit import (
+    Pursuit,
+    as_it_is_flown,
+    begin_pursuit,
+    fit_to_level,
+    keep_margin,
+)
 from relguide.flying.sky import Sky
 from relguide.flying.world import World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
@@ -319,7 +324,7 @@ def _guide(
     keep_margin(one, belief)
     fit_to_level(one, fleet)
     yield from obey_tasks(one, pursuits, fleet, belief, guide.reassign, t)
-    belief = replace(belief, limits=one.assignment.can(belief.limits))
+    belief = as_it_is_flown(one, belief)
     one.memory, advice = guide.advise(one.memory, belief, one.assignment)
     advice = mind_ahead(one, pursuits, belief, advice)
     for event in advice.events:

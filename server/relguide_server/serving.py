@@ -13,6 +13,7 @@ from fastapi import FastAPI
 from relguide_server.flights.live_fleet import LiveFleet
 from relguide_server.http.connections import Connection
 from relguide_server.http.proxy import believed
+from relguide_server.http.sockets import Socket
 from relguide_server.jobs.worker_pool import WorkerPool
 from relguide_server.settings import ServiceSettings
 
@@ -74,6 +75,7 @@ def uvicorn_options(*, host: str, port: int, most: int, proxies: str) -> dict[st
         "port": port,
         "loop": "auto",
         "http": partial(Connection, most=most, proxies=believed(proxies)),
+        "ws": Socket,
         "ws_per_message_deflate": False,
         "ws_max_size": 1024 * 1024,  # a browser sends us camera positions, nothing larger
         "timeout_graceful_shutdown": TO_FINISH,

@@ -2,7 +2,8 @@
 
 Margins, step responses and their pictures are computed in a minute. The campaign's tables and
 picture are of the folder of `relguide campaign examples/campaign.toml --out DIR`, the table of what
-is not exact of that of `examples/mixed.toml`; without a folder they stay as they are.
+is not exact of that of `examples/mixed.toml`, and that of flights by hand of that of
+`examples/flight_director.toml`; without a folder they stay as they are.
 """
 
 import argparse
@@ -23,6 +24,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         rows = [row_of_record(record) for record in read_table(given.folder).to_pylist()]
         if any(row.family == "mixed" for row in rows):
             report.write_inexact(rows)
+        elif any(row.family == "flight_director" for row in rows):
+            report.write_by_hand(rows)
         else:
             families = list(dict.fromkeys(row.family for row in rows))
             report.write_campaign(sorted(rows, key=lambda row: families.index(row.family)))

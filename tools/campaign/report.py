@@ -31,7 +31,12 @@ from tools.campaign.loops import (
 
 PAGE = DOCS / "flight.md"
 AUTOPILOT, PATH, CAMPAIGN = "flight-autopilot.svg", "flight-path.svg", "flight-campaign.svg"
-SHOWN = {"margins": "loop_margins.csv", "campaign": "campaign.csv", "mixed": "mixed.csv"}
+SHOWN = {
+    "margins": "loop_margins.csv",
+    "campaign": "campaign.csv",
+    "mixed": "mixed.csv",
+    "by hand": "by_hand.csv",
+}
 """Blocks of the page, and the files that they show."""
 FIGURES = "campaign_figures.csv"
 """What the picture of the campaign is drawn from."""
@@ -82,6 +87,12 @@ def write_inexact(rows: Sequence[Row], page: Path = PAGE, results: Path = RESULT
     """Keep and show the table of flights in which nothing is exact."""
     write_table(SHOWN["mixed"], tables.INEXACT, tables.inexact(rows), results)
     show("mixed", page, results)
+
+
+def write_by_hand(rows: Sequence[Row], page: Path = PAGE, results: Path = RESULTS) -> None:
+    """Keep and show the table of flights along the flight director's bars."""
+    write_table(SHOWN["by hand"], tables.BY_HAND, tables.by_hand(rows), results)
+    show("by hand", page, results)
 
 
 def show(block: str, page: Path = PAGE, results: Path = RESULTS) -> None:

@@ -6,7 +6,10 @@ import numpy as np
 
 from benchmarks.tables import Cells
 from relguide.campaign.campaign_file import DERIVED
+from relguide.campaign.report import mean_of
 from relguide.campaign.row import FIGURES, Figure, Row
+from relguide.cli.shared_tables import with_interval
+from relguide.learn.training.shares import Share
 
 OVERVIEW = (
     "family", "flights", "planned", "joined", "losses, planned", "losses, not planned",
@@ -15,6 +18,11 @@ OVERVIEW = (
 INEXACT = (
     "the leader", "flights", "joined, %", "join over promise, median and 95 %, %",
     "plans shown, median and 95 %", "losses with a plan", "without a word",
+)  # fmt: skip
+BY_HAND = (
+    "the leader", "flights", "joined by hand, %", "by the autopilot, %", "later, %",
+    "within 2° of the bar, %", "off the autopilot's path, median and 95 %, m",
+    "losses with a plan", "without a word",
 )  # fmt: skip
 DISTRIBUTION = "figure", "flights", "mean", "median", "95 %", "99 %", "worst", "in flight"
 
@@ -61,6 +69,34 @@ def inexact(rows: Sequence[Row]) -> Cells:
             ]
         )
     return cells
+
+
+def by_hand(rows: Sequence[Row]) -> Cells:
+    """A line for each family that the family `flight_director` draws from, and one for all."""
+    family = DERIVED["flight_director"]
+    flown = [row for row in rows if not row.error]
+    groups = {
+        base: [row for row in flown if family.base(row.number) == base] for base in family.bases
+    }
+    return [_by_hand_cells(name, own) for name, own in {**groups, "all": flown}.items()]
+
+
+def _by_hand_cells(name: str, rows: Sequence[Row]) -> list[str]:
+    later = [100.0 * r.late_share for r in rows if r.late_share is not None]
+    late = mean_of(np.array(later)) if later else None
+    within = [100.0 * r.within_bar_share for r in rows if r.within_bar_share is not None]
+    off = [r.off_autopilot_m for r in rows if r.off_autopilot_m is not None]
+    return [
+        name,
+        f"{len(rows):,}",
+        with_interval(Share(hits=sum(r.joined for r in rows), of=len(rows))),
+        f"{100.0 * sum(r.autopilot_join_s is not None for r in rows) / len(rows):.1f}",
+        f"{late.value:.2f} ({late.low:.2f} … {late.high:.2f})" if late else "",
+        f"{np.mean(within):.1f}",
+        f"{np.median(off):.0f}, {np.percentile(off, 95):.0f}",
+        f"{sum(bool(r.losses) for r in rows if r.planned)}",
+        f"{sum(r.silent_losses > 0 for r in rows)}",
+    ]
 
 
 def distributions(rows: Sequence[Row]) -> Cells:

@@ -9,7 +9,6 @@ import "./styles/layout.css";
 import "./styles/panels.css";
 import "./styles/controls.css";
 import "./styles/numbers.css";
-import "./styles/map.css";
 import "./styles/small.css";
 import "./nd/nd.css";
 import { render } from "preact";

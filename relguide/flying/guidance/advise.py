@@ -17,6 +17,7 @@ from relguide.flying.guidance.announcements import (
     UnableTo,
     leader_change,
 )
+from relguide.flying.guidance.as_flown import look_out_by_hand
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.commit.better import better, change_margin, may_be_improved
 from relguide.flying.guidance.commit.committed import (
@@ -97,7 +98,9 @@ def advise(
         memory, news = _stay_or_change(memory, belief, assignment, planner)
         events += news
     elif _has_left_capture(memory, belief, assignment):
-        memory, news = _plan_again(memory, belief, assignment, planner)
+        strayed = _has_strayed(memory, belief, assignment)
+        reason: PlanReason = "deviation" if strayed else "leader_turned"
+        memory, news = _plan_again(memory, belief, assignment, planner, reason=reason)
         events += news
     if engaged:
         memory, news = keep_heading(memory, belief, assignment)
@@ -117,8 +120,9 @@ def advise(
         outlook = _outlook(memory, belief, assignment)
     memory, news = _follow_act(memory, belief, done)
     events += news
-    alert, said = judge_separation(memory.alert, outlook, belief, assignment)
-    standing, of_others = judge_others(memory.others, outlook, belief, assignment)
+    flown = look_out_by_hand(outlook, belief, assignment)
+    alert, said = judge_separation(memory.alert, flown, belief, assignment)
+    standing, of_others = judge_others(memory.others, flown, belief, assignment)
     memory = memory._replace(alert=alert, others=standing, forecast=outlook.forecast)
     memory, news = promise_anew(memory, belief, assignment)
     events += news
@@ -139,11 +143,8 @@ def _try_to_plan(
         clear = min(assignment.min_separation + settings.escape_room, assignment.aim)
         if not rested or belief.counted_separation < clear:
             return memory, []
-    # Of two ways round that are as fast, the one that the crew accepted is flown.
-    like = None if memory.proposed is None else memory.proposed.path
-    found = propose(belief, assignment, None, planner, like=like, stay=settings.shown_time)
-    memory = memory._replace(asked=t, proposed=None)
-    memory, events = count_refusal(memory, found)
+    found = propose(belief, assignment, None, planner)
+    memory, events = count_refusal(memory._replace(asked=t), found)
     if isinstance(found, NoProposal):
         return say_no_plan(memory, belief, assignment, found.answer, events)
     reason: PlanReason = "engaged" if memory.announced is None else "resumed"
@@ -280,18 +281,23 @@ def _plan_again(
 
 def _has_left_capture(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
     """Whether the pursuer is no longer near the leader's flown path, or the slot is far off it."""
-    settings, s = assignment.settings, memory.progress.s
-    marks = belief.track.marks
-    _, x, y, heading, _ = mark_at(marks, at.S, s + belief.own.tas)
-    if hypot(belief.own.x - x, belief.own.y - y) > settings.lost_across:
-        return True
-    if abs(wrap_signed(belief.own.heading - heading)) > settings.lost_heading:
+    if _has_strayed(memory, belief, assignment):
         return True
     if memory.mode == "follow":
         return False
+    settings, s, marks = assignment.settings, memory.progress.s, belief.track.marks
     turned = abs(wrap_signed(belief.leader_rolled_out - memory.captured))
     to_slot = marks[-1, at.S] - assignment.aim - s
     return bool(turned > settings.route_left and abs(to_slot) > settings.too_far)
+
+
+def _has_strayed(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
+    """Whether the pursuer is far beside the leader's flown path, or flies across it."""
+    settings, own = assignment.settings, belief.own
+    _, x, y, heading, _ = mark_at(belief.track.marks, at.S, memory.progress.s + own.tas)
+    if hypot(own.x - x, own.y - y) > settings.lost_across:
+        return True
+    return abs(wrap_signed(own.heading - heading)) > settings.lost_heading
 
 
 def _act(memory: Memory, belief: Belief, assignment: Assignment) -> Act:

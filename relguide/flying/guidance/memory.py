@@ -114,7 +114,11 @@ class Memory(NamedTuple):
     promise: Promise | None
     """`None` as above."""
     proposed: Announced | None
-    """The proposal that stands; `None` if there is none, or guidance is engaged."""
+    """The last proposal; `None` if there is none, or guidance is engaged."""
+    accepted: Announced | None
+    """The one that the crew has accepted: only that path is flown; `None` if none waits for it."""
+    engaging: bool
+    """Whether the crew has just ordered to engage what it accepted."""
     reoffered: str
     """How the proposal is another one than was accepted, as a sentence without full stop; empty if
     it is not."""
@@ -191,6 +195,8 @@ def begin(belief: Belief, engagement: Engagement = "engaged") -> Memory:
         announced=None,
         promise=None,
         proposed=None,
+        accepted=None,
+        engaging=False,
         reoffered="",
         pending="engaged",
         asked=LONG_AGO,

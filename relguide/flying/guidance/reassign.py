@@ -51,6 +51,7 @@ def reassign(
     belief = replace(belief, limits=asked.can(belief.limits))
     memory = memory._replace(because=why)
     if memory.engagement == "armed":
+        memory = memory._replace(proposed=None, missing=None, asked=LONG_AGO)
         return offer_again(memory, f"{why}, and the proposal is made anew")
     if memory.engagement != "engaged":
         return memory._replace(proposed=None, missing=None, asked=LONG_AGO), []

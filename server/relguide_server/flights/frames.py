@@ -37,12 +37,26 @@ class UnwelcomeFrame(Exception):
         self.code, self.reason = code, _shorten(reason)
 
 
+class FrameAllowance:
+    """How many frames a second a socket may send: as many at once after a second of silence."""
+
+    def __init__(self, most: int, clock: Callable[[], Second] = monotonic) -> None:
+        self._most, self._clock = most, clock
+        self._left, self._at = float(most), clock()
+
+    def admits_one(self) -> bool:
+        """Whether one more frame is not one too many."""
+        now = self._clock()
+        self._left = min(self._left + self._most * (now - self._at), self._most) - 1.0
+        self._at = now
+        return self._left >= 0.0
+
+
 class FrameReader:
     """Reads the frames of one client. Lives on the event loop."""
 
     def __init__(self, clock: Callable[[], Second] = monotonic) -> None:
-        self._clock = clock
-        self._left, self._at = float(MOST), clock()
+        self._allowance = FrameAllowance(MOST, clock)
 
     def read(self, event: Mapping[str, Any]) -> Upstream:
         """What a client sent.
@@ -53,10 +67,7 @@ class FrameReader:
         Raises:
             UnwelcomeFrame: if it is no frame of the protocol, or one too many.
         """
-        now = self._clock()
-        self._left = min(self._left + MOST * (now - self._at), MOST) - 1.0
-        self._at = now
-        if self._left < 0.0:
+        if not self._allowance.admits_one():
             raise UnwelcomeFrame(TOO_FAST, f"A client may send {MOST} frames a second: send less.")
         text = event.get("text")
         if text is None:

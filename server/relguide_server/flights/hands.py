@@ -19,8 +19,8 @@ SILENCE: Second = 0.5
 """After so long without a frame, by the wall clock, the stick is neutral."""
 LEVELLED: Radian = 0.75 * AUTOPILOT_BANK
 """Who lets go at a steeper bank is brought back to this one, for the autopilot to take over."""
-LEVELLING = 0.5
-"""The stick that does so."""
+FULL = 1.0
+"""Deflection of the stick that does so."""
 NEUTRAL = (0.0, 0.0)
 
 
@@ -110,7 +110,7 @@ class Hands:
             return
         bank = find_by_ident(sample.aircraft, self._flown).bank
         level = abs(bank) <= LEVELLED
-        yield from self._give(NEUTRAL if level else (-copysign(LEVELLING, bank), 0.0))
+        yield from self._give(NEUTRAL if level else (-copysign(FULL, bank), 0.0))
         if whole and level:
             yield SetAutopilot(on=True, ident=self._flown)
 

@@ -52,7 +52,7 @@ from relguide.flying.orders import (
     order_fault,
 )
 from relguide_server.flights.catalogue import CatalogueOf
-from relguide_server.flights.control import MOST_RATE, TOO_FAST
+from relguide_server.flights.control import HELD, MOST_RATE, TOO_FAST
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
@@ -391,6 +391,8 @@ def _order_autopilot(flight: LiveFlight, order: SetAutopilot) -> None:
 
 def _move_stick(flight: LiveFlight, order: Stick) -> None:
     _expect_flying(flight, order)
+    if flight.control.taken:
+        raise Refusal(409, HELD)
     if _guidance(flight, order.ident).autopilot:
         raise Refusal(409, "The autopilot flies: take control to fly by hand.")
     flight.command(order)

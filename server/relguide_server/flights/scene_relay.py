@@ -11,6 +11,7 @@ from contextlib import suppress
 from functools import cache
 from hashlib import sha256
 from importlib.util import find_spec
+from math import isfinite
 from pathlib import Path
 
 import msgspec
@@ -21,19 +22,16 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
 
+from relguide_server.flights.frames import FrameAllowance
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.http.proxy import root_of
 
-PASSED_ON = {
-    "ViewerCameraMessage": frozenset(
-        ("wxyz", "position", "fov", "near", "far", "image_height", "image_width", "look_at",
-         "up_direction")
-    ),
-    "GuiUpdateMessage": frozenset(("uuid", "updates")),
+CAMERA = {
+    "wxyz": 4, "position": 3, "fov": 0, "near": 0, "far": 0, "image_height": 0, "image_width": 0,
+    "look_at": 3, "up_direction": 3,
 }  # fmt: skip
-"""Messages that a browser may send to the scene, with their fields: its camera, and the view button
-pressed."""
+"""What the scene is told of a browser's camera: numbers, and vectors of so many."""
 SCENE_CSP = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
@@ -59,7 +57,12 @@ WRITTEN_ON = b"""<script>
   });
 </script>"""
 """Put before the scripts of viser's page."""
+PRESSED = {"value": True}
+"""All that a browser may change of a button: viser sets whatever else it is told to."""
 NOT_PASSED_ON = (1008, "The scene takes camera and button messages only.")
+MOST = 120
+"""Messages a second: a camera that is dragged sends one a picture."""
+TOO_FAST = (1008, f"The scene takes {MOST} messages a second: send less.")
 
 
 router = APIRouter(include_in_schema=False)
@@ -115,6 +118,7 @@ async def _relay(websocket: WebSocket, flight: LiveFlight) -> None:
             compression=None,
             max_size=None,
             ping_interval=None,
+            close_timeout=1.0,
             proxy=None,
         )
     except (OSError, WebSocketException):
@@ -130,7 +134,10 @@ async def _relay(websocket: WebSocket, flight: LiveFlight) -> None:
             downward.cancel()
             upward.cancel()
         for task in done:
-            task.result()  # a mistake of ours in there is raised here
+            refused = task.result()  # a mistake of ours in there is raised here
+            if refused is not None:
+                with suppress(WebSocketDisconnect):
+                    await websocket.close(*refused)
     finally:
         await scene.close()
 
@@ -152,19 +159,22 @@ async def _to_browser(scene: ClientConnection, websocket: WebSocket) -> None:
             await websocket.close(code, scene.close_reason or "")
 
 
-async def _to_scene(websocket: WebSocket, scene: ClientConnection) -> None:
+async def _to_scene(websocket: WebSocket, scene: ClientConnection) -> tuple[int, str] | None:
+    """Pass on what a browser sends, until it is gone: `None`, or why its socket is to be closed."""
+    allowance = FrameAllowance(MOST)
     try:
         while True:
             event = await websocket.receive()
             if event["type"] == "websocket.disconnect":
-                return
+                return None
+            if not allowance.admits_one():
+                return TOO_FAST
             message = event.get("bytes") or b""
             if not may_pass(message):
-                await websocket.close(*NOT_PASSED_ON)
-                return
+                return NOT_PASSED_ON
             await scene.send(message)
     except ConnectionClosed:
-        pass
+        return None
 
 
 def may_pass(message: bytes) -> bool:
@@ -173,11 +183,21 @@ def may_pass(message: bytes) -> bool:
         content = msgspec.msgpack.decode(message)
     except msgspec.DecodeError:
         return False
-    if not isinstance(content, dict):
-        return False
-    kind = content.get("type")
-    fields = PASSED_ON.get(kind) if isinstance(kind, str) else None
-    return fields is not None and content.keys() <= fields | {"type"}
+    match content:
+        case {"type": "ViewerCameraMessage", **camera}:
+            if camera.keys() != CAMERA.keys():
+                return False
+            return all(_is_of(camera[name], count) for name, count in CAMERA.items())
+        case {"type": "GuiUpdateMessage", "uuid": str(), "updates": updates, **rest}:
+            return updates == PRESSED and not rest
+    return False
+
+
+def _is_of(value: object, count: int) -> bool:
+    """Whether something is a finite number, or a vector of so many."""
+    if count:
+        return isinstance(value, list) and len(value) == count and all(_is_of(v, 0) for v in value)
+    return isinstance(value, int | float) and isfinite(value)
 
 
 @cache

@@ -1,15 +1,21 @@
 """The sockets described: AsyncAPI at `/asyncapi.json`, and a page of it to read."""
 
+from collections.abc import Iterable
 from functools import cache
 from html import escape
 from typing import Any
 
 from fastapi import APIRouter, Request
+from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.responses import HTMLResponse, Response
 
 from relguide.contract.messages import Tick
 from relguide.contract.protocol import PROTOCOL, STREAM
+from relguide.contract.upstream import ControlAnswer, GiveBack, StickMove, TakeControl
+from relguide_server.flights.control import MOST_RATE
+from relguide_server.flights.frames import LONGEST, MOST
+from relguide_server.flights.hands import SILENCE
 from relguide_server.flights.stream import CLOSE_CODES
 from relguide_server.http.bodies import json_answer
 from relguide_server.http.page_style import STYLE, prose
@@ -17,13 +23,29 @@ from relguide_server.http.proxy import root_of
 from relguide_server.http.security_headers import VERSION
 
 DESCRIPTION = f"""A flight's stream sends a tick each twentieth of a second. The first holds a
-snapshot: all that is needed to draw the flight so far. Clients only listen; a client that is slow
-misses samples, and gets a snapshot where it missed more. Ask for the sub-protocol `{STREAM}`: under
-this name fields are added, but none is taken away or changed. Names end with their unit. Headings
-count clockwise from north of the plane in which x is east and y is north; of a flight whose
-situation came with latitudes, each point has `lat_deg` and `lon_deg` as well, and that plane's
-north is true north at the leader's first place."""
+snapshot: all that is needed to draw the flight so far. A client that is slow misses samples, and
+gets a snapshot where it missed more. Ask for the sub-protocol `{STREAM}`: under this name fields
+are added, but none is taken away or changed. Names end with their unit. Headings count clockwise
+from north of the plane in which x is east and y is north; of a flight whose situation came with
+latitudes, each point has `lat_deg` and `lon_deg` as well, and that plane's north is true north at
+the leader's first place. Clients need not send anything. Who may command the flight may fly it by
+hand here, one client at a time, at a rate of {MOST_RATE:g} at most: it takes control, which it has
+from the next second of flight on, and says where its stick is. Each step of the flight is then sent
+at once. After {SILENCE:g} s without a frame the stick is neutral. When the client gives control
+back or is gone, the autopilot flies again. A frame is JSON in text of {LONGEST} bytes at most, and
+{MOST} of them may come a second."""
 LISTEN = "What a flight does, as it does it."
+FLY = "A crew flies it by hand."
+SENT: dict[str, tuple[type[BaseModel], str]] = {
+    "tick": (Tick, "What happened since the last one"),
+    "control": (ControlAnswer, "What became of asking for control"),
+}
+HEARD: dict[str, tuple[type[BaseModel], str]] = {
+    "take_control": (TakeControl, "Take control from the autopilot"),
+    "stick": (StickMove, "Move the stick"),
+    "give_back": (GiveBack, "Give control back"),
+}
+"""Messages by name: their shape, and what they say."""
 
 router = APIRouter(include_in_schema=False)
 
@@ -47,7 +69,8 @@ async def stream_page(request: Request) -> HTMLResponse:
 def asyncapi_document() -> dict[str, Any]:
     """The sockets in AsyncAPI 3, without the server's address."""
     _, schemas = models_json_schema(
-        [(Tick, "validation")], ref_template="#/components/schemas/{model}"
+        [(shape, "validation") for shape, _ in (SENT | HEARD).values()],
+        ref_template="#/components/schemas/{model}",
     )
     codes = "\n".join(f"- {code}: {meaning}" for code, meaning in CLOSE_CODES.items())
     return {
@@ -60,7 +83,9 @@ def asyncapi_document() -> dict[str, Any]:
                 "title": "A flight's stream",
                 "description": f"Closed with one of these codes, and a sentence:\n{codes}",
                 "parameters": {"flight_id": {"description": "`id` of `POST /api/v1/flights`."}},
-                "messages": {"tick": {"$ref": "#/components/messages/tick"}},
+                "messages": {
+                    name: {"$ref": f"#/components/messages/{name}"} for name in SENT | HEARD
+                },
                 "bindings": {
                     "ws": {
                         "method": "GET",
@@ -78,31 +103,38 @@ def asyncapi_document() -> dict[str, Any]:
             }
         },
         "operations": {
-            "watch": {
-                "action": "send",
-                "summary": LISTEN,
-                "channel": {"$ref": "#/channels/stream"},
-                "messages": [{"$ref": "#/channels/stream/messages/tick"}],
-            }
+            "watch": _operation("send", LISTEN, SENT),
+            "fly": _operation("receive", FLY, HEARD),
         },
         "components": {
             "messages": {
-                "tick": {
-                    "name": "tick",
-                    "title": "What happened since the last one",
+                name: {
+                    "name": name,
+                    "title": title,
                     "contentType": "application/json",
-                    "payload": {"$ref": "#/components/schemas/Tick"},
+                    "payload": {"$ref": f"#/components/schemas/{shape.__name__}"},
                 }
+                for name, (shape, title) in (SENT | HEARD).items()
             },
             "schemas": schemas["$defs"],
         },
     }
 
 
+def _operation(action: str, summary: str, messages: Iterable[str]) -> dict[str, Any]:
+    return {
+        "action": action,
+        "summary": summary,
+        "channel": {"$ref": "#/channels/stream"},
+        "messages": [{"$ref": f"#/channels/stream/messages/{name}"} for name in messages],
+    }
+
+
 def _page(root: str) -> str:
     document = asyncapi_document()
     schemas = document["components"]["schemas"]
-    order = ["Tick", *sorted(name for name in schemas if name != "Tick")]
+    first = [shape.__name__ for shape, _ in (SENT | HEARD).values()]
+    order = [*first, *sorted(name for name in schemas if name not in first)]
     parts = "".join(_section(name, schemas[name]) for name in order)
     codes = "".join(
         f"<tr><td><code>{code}</code><td>{escape(meaning)}" for code, meaning in CLOSE_CODES.items()
@@ -114,9 +146,14 @@ def _page(root: str) -> str:
         f"<p>{prose(DESCRIPTION)}<p>"
         f'<a href="{root}/asyncapi.json">AsyncAPI</a> · <a href="{root}/docs">REST</a>'
         "<h2><code>/api/v1/flights/{flight_id}/stream</code></h2>"
-        f"<p>{LISTEN} A WebSocket that sends a <a href='#Tick'>Tick</a> at a time."
+        f"<p>{LISTEN} A WebSocket that sends {_links(SENT)} and hears {_links(HEARD)}."
         f"<table><caption>Why it is closed</caption>{codes}</table>{parts}</main>"
     )
+
+
+def _links(messages: dict[str, tuple[type[BaseModel], str]]) -> str:
+    names = [shape.__name__ for shape, _ in messages.values()]
+    return ", ".join(f"<a href='#{name}'>{name}</a>" for name in names)
 
 
 def _section(name: str, schema: dict[str, Any]) -> str:

@@ -13,7 +13,7 @@ from relguide.campaign.keys import KEYS
 from relguide.campaign.row import Row
 
 HEAD: dict[str, Any] = {"flights": 3, "family": "declared"}
-UNITS = ("_m", "_mps", "_deg", "_s", "_k", "_kg", "_share", "_factor")
+UNITS = ("_m", "_mps", "_deg", "_s", "_k", "_kg", "_share", "_factor", "_radps")
 ROOT = Path(__file__).parents[3]
 
 

@@ -1,5 +1,6 @@
 """A flight is drawn from its number alone; what is swept is all that differs."""
 
+from dataclasses import replace
 from math import hypot
 from typing import Any
 
@@ -9,7 +10,11 @@ from relguide.campaign.campaign_file import read_campaign
 from relguide.campaign.draw import draw_flight
 from relguide.campaign.families import draw
 from relguide.campaign.keys import KEYS
+from relguide.flying.guidance.settings import DEFAULT
+from relguide.flying.pilot_model import PilotModel
 from relguide.units import DEG
+
+PILOTED = {"campaign": {"flights": 40, "family": "flight_director", "seed": 3}}
 
 
 def campaign(family: str = "declared", **tables: Any) -> Any:
@@ -64,6 +69,31 @@ def test_a_derived_family_begins_as_its_base() -> None:
     assert draw_flight(campaign("exact"), 2).case.scenario.situation == base.scenario.situation
 
 
+def test_drawn_pilots_fly_declared_and_undeclared_leaders_by_turns() -> None:
+    drawn = []
+    for number in range(40):
+        case = draw_flight(read_campaign(PILOTED), number).case
+        base = draw(("declared", "undeclared")[number % 2], number, seed=3)
+        assert case.scenario.situation == base.scenario.situation
+        assert case.scenario.intent_known == (number % 2 == 0)
+        assert case.scenario.by_hand is not None
+        drawn.append(case.scenario.by_hand)
+    usual = PilotModel()
+    for name in ("bandwidth", "delay", "remnant", "threshold", "reaction"):
+        shares = [getattr(one, name) / getattr(usual, name) for one in drawn]
+        assert 0.5 <= min(shares) < 0.75
+        assert 1.25 < max(shares) <= 1.5
+    assert {one.lead for one in drawn} == {0.0}
+
+
+def test_keys_of_a_pilot_have_any_family_flown_by_hand() -> None:
+    keys = {"pilot_delay_s": {"fixed": 0.4}, "by_hand_margin_m": {"fixed": 60.0}}
+    case = draw_flight(campaign("near_limit", vary=keys), 1).case
+    assert case.scenario.by_hand == PilotModel(delay=0.4)
+    assert case.world().settings == replace(DEFAULT, by_hand_margin=60.0)
+    assert draw_flight(campaign("near_limit"), 1).case.scenario.by_hand is None
+
+
 def test_the_mixed_family_has_all_that_is_not_exact_over_three_families() -> None:
     for number, base in enumerate(("declared", "undeclared", "commands")):
         case = draw_flight(campaign("mixed"), number).case
@@ -86,6 +116,8 @@ VALUES = {
     "isa_error_k": -3.0, "roll_rate_factor": 0.8, "roll_lag_factor": 1.2, "speed_lag_factor": 1.1,
     "thrust_factor": 0.9, "drag_factor": 1.1, "speed_brake_factor": 0.5, "weight_kg": 120_000.0,
     "gusts_mps": 1.0, "nacp": 8.0, "nacv": 2.0, "latency_s": 1.2, "loss_share": 0.1,
+    "pilot_bandwidth_radps": 0.7, "pilot_delay_s": 0.2, "pilot_remnant_share": 0.015,
+    "pilot_threshold_deg": 0.8, "pilot_reaction_s": 1.1, "by_hand_margin_m": 70.0,
 }  # fmt: skip
 
 
@@ -98,6 +130,7 @@ def test_each_key_changes_what_it_says(key: str) -> None:
     east, north = pursuer.x - leader.x, pursuer.y - leader.y
     true, believed = world.aircraft[0].airframe, world.aircraft[0].known_airframe
     air = world.believed_air or world.air
+    pilot = scenario.by_hand or PilotModel()
     found = {
         "altitude_m": world.aircraft[0].altitude,
         "isa_deviation_k": world.air.isa_deviation,
@@ -116,6 +149,12 @@ def test_each_key_changes_what_it_says(key: str) -> None:
             air.wind.east - world.air.wind.east, air.wind.north - world.air.wind.north
         ),
         "isa_error_k": air.isa_deviation - world.air.isa_deviation,
+        "pilot_bandwidth_radps": pilot.bandwidth,
+        "pilot_delay_s": pilot.delay,
+        "pilot_remnant_share": pilot.remnant,
+        "pilot_threshold_deg": pilot.threshold / DEG,
+        "pilot_reaction_s": pilot.reaction,
+        "by_hand_margin_m": world.settings.by_hand_margin,
         "roll_rate_factor": true.max_roll_rate / believed.max_roll_rate,
         "roll_lag_factor": true.roll_time_constant / believed.roll_time_constant,
         "speed_lag_factor": true.speed_time_constant / believed.speed_time_constant,

@@ -8,6 +8,8 @@ from relguide.campaign.families import draw
 from relguide.campaign.judge import fly_case, row_of
 from relguide.flying.documents import Alert, FlightEnded, ForecastChanged, Sample, Unable
 from relguide.flying.flight import fly
+from relguide.flying.guidance.settings import DEFAULT
+from relguide.flying.pilot_model import PilotModel
 from relguide.flying.plan_documents import PathPoint
 from relguide.planning.plan import plan
 from relguide.planning.wind import Wind
@@ -148,3 +150,31 @@ def test_what_guidance_believes_wrongly_is_what_the_case_says() -> None:
     pursuer, _ = world.aircraft
     assert pursuer.airframe.max_roll_rate == 0.5 * pursuer.known_airframe.max_roll_rate
     assert draw("declared", 0).world().believed_air is None
+
+
+@pytest.mark.slow
+def test_a_flight_by_hand_is_held_against_the_autopilots() -> None:
+    case = draw("declared", 4)
+    by_hand = replace(case, scenario=replace(case.scenario, by_hand=PilotModel()))
+    ours, theirs = fly_case(by_hand), fly_case(case)
+    assert ours.autopilot_join_s == theirs.join_s
+    assert ours.autopilot_least_share == pytest.approx(theirs.least_share)
+    assert ours.late_share is not None
+    assert abs(ours.late_share) < 0.05
+    assert ours.nearer_share == pytest.approx(theirs.least_share - ours.least_share)
+    assert ours.within_bar_share is not None
+    assert 0.7 < ours.within_bar_share < 1.0
+    assert ours.off_autopilot_m is not None
+    assert 0.0 < ours.off_autopilot_m < 300.0
+    assert (theirs.late_share, theirs.tube_m, theirs.nearer_share) == (None, None, None)
+
+
+@pytest.mark.slow
+def test_the_perfect_pilot_has_nothing_on_the_autopilot() -> None:
+    case = draw("declared", 4)
+    perfect = replace(case.scenario, by_hand=PilotModel.perfect())
+    settings = replace(DEFAULT, by_hand_margin=1.0)
+    row = fly_case(replace(case, scenario=perfect, settings=settings))
+    assert row.late_share == 0.0
+    assert row.off_autopilot_m == pytest.approx(0.0, abs=5.0)
+    assert row.nearer_share == pytest.approx(0.0, abs=1e-3)

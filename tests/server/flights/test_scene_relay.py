@@ -4,6 +4,7 @@ import asyncio
 import gzip
 import threading
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 
 import httpx2 as httpx
 import msgspec
@@ -20,6 +21,17 @@ from relguide.flying.orders import Command
 from tests.server.flown import ideal_flight
 from tests.server.serving import ideal_app, serve
 
+CAMERA: dict[str, object] = {
+    "wxyz": [1.0, 0.0, 0.0, 0.0],
+    "position": [0.0, 0.0, 9.0],
+    "fov": 0.9,
+    "near": 0.1,
+    "far": 100.0,
+    "image_height": 400,
+    "image_width": 600,
+    "look_at": [0.0, 0.0, 0.0],
+    "up_direction": [0.0, 0.0, 1.0],
+}
 VISER = Subprotocol(f"viser-v{viser.__version__}")
 
 
@@ -149,8 +161,41 @@ def test_a_type_given_twice_is_judged_as_viser_reads_it() -> None:
     pack = msgspec.msgpack.encode
     kind, share, camera = pack("type"), pack("ShareUrlRequest"), pack("ViewerCameraMessage")
     assert not may_pass(b"\x82" + kind + camera + kind + share)
-    assert may_pass(message("ViewerCameraMessage"))
-    assert may_pass(message("GuiUpdateMessage"))
+    assert may_pass(message("ViewerCameraMessage", **CAMERA))
+    assert may_pass(message("GuiUpdateMessage", uuid="a", updates={"value": True}))
+
+
+@pytest.mark.parametrize("updates", [{"sync_cb": "boom"}, {"__class__": 1}, {"value": 1.5}, {}, 3])
+def test_of_a_button_nothing_passes_but_that_it_is_pressed(updates: object) -> None:
+    assert not may_pass(message("GuiUpdateMessage", uuid="a", updates=updates))
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"fov": "wide"}, {"position": [0.0, 1.0]}, {"near": float("nan")}, {"more": 1.0}]
+)
+def test_a_camera_is_passed_on_whole_or_not_at_all(wrong: dict[str, object]) -> None:
+    assert not may_pass(message("ViewerCameraMessage", **CAMERA | wrong))
+
+
+@pytest.mark.parametrize("name", list(CAMERA))
+def test_a_camera_that_lacks_something_is_not_passed_on(name: str) -> None:
+    rest = {key: value for key, value in CAMERA.items() if key != name}
+    assert not may_pass(message("ViewerCameraMessage", **rest))
+
+
+def test_a_viewer_that_floods_is_closed(address: str, flight_id: str) -> None:
+    async def flood() -> int | None:
+        async with scene_of(address, f"/scene/{flight_id}") as socket:
+            await socket.recv()
+            with suppress(ConnectionClosed):
+                for _ in range(1000):
+                    await socket.send(message("ViewerCameraMessage", **CAMERA))
+                async with asyncio.timeout(10.0):
+                    while True:
+                        await socket.recv()
+            return socket.close_code
+
+    assert asyncio.run(flood()) == 1008
 
 
 def test_the_scene_is_taken_down_with_its_last_viewer(address: str, flight_id: str) -> None:

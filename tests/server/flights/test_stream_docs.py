@@ -10,6 +10,7 @@ import httpx2 as httpx
 import jsonschema_rs
 import pytest
 from relguide_server.app import create_app
+from relguide_server.flights.frames import FrameReader
 from relguide_server.flights.stream_docs import asyncapi_document
 from relguide_server.settings import ServiceSettings
 from websockets.asyncio.client import connect
@@ -136,6 +137,28 @@ def test_a_flight_sends_what_is_described(situation: dict[str, Any] | None) -> N
             assert (one["lat_deg"], one["lon_deg"]) == pytest.approx(place, abs=1e-9)
 
 
+def test_what_a_client_may_send_is_described_as_it_is_read() -> None:
+    document = asyncapi_document()
+    fly = document["operations"]["fly"]
+    assert fly["action"] == "receive"
+    examples = {
+        "take_control": {"director": False, "ident": "RG 06"},
+        "stick": {"roll": -0.5, "pitch": 1.0},
+        "give_back": {},
+    }
+    names = [each["$ref"].rpartition("/")[2] for each in fly["messages"]]
+    assert names == list(examples)
+    reader = FrameReader()
+    for name, fields in examples.items():
+        shape = document["components"]["messages"][name]["payload"]
+        validator = jsonschema_rs.validator_for({**shape, "components": document["components"]})
+        frame = {"kind": name, **fields}
+        validator.validate(frame)
+        assert reader.read({"text": json.dumps(frame)}).kind == name
+        with pytest.raises(jsonschema_rs.ValidationError):
+            validator.validate({**frame, "kind": "tick"})
+
+
 def test_it_can_be_read_and_fetched() -> None:
     with TestClient(ideal_app(root_path="/relguide")) as client:
         document = client.get("/asyncapi.json").json()
@@ -146,4 +169,5 @@ def test_it_can_be_read_and_fetched() -> None:
         page = client.get("/docs/stream").text
         assert '<h2 id="AircraftSample">' in page
         assert STREAM in page
+        assert '<h2 id="StickMove">' in page
         assert 'href="/relguide/asyncapi.json"' in page

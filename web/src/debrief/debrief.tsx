@@ -27,6 +27,10 @@ export function Debrief({ session, actions }: Props) {
     void flight.revision.value;
     return flownOf(session.history());
   });
+  const close = () => {
+    debriefOpen.value = false;
+    sceneMaximised.value = false;
+  };
   const isLive = flight.source.value.kind === "live" && !flight.clock.value.ended;
   return (
     <section class="panel debrief" aria-labelledby="panel-debrief">
@@ -43,7 +47,7 @@ export function Debrief({ session, actions }: Props) {
           <Icon name={sceneMaximised.value ? "restore" : "maximise"} />
           {sceneMaximised.value ? "Restore" : "Maximise"}
         </button>
-        <button type="button" class="quiet" onClick={set(debriefOpen, false)}>
+        <button type="button" class="quiet" onClick={close}>
           Close
         </button>
       </header>

@@ -30,6 +30,7 @@ export function figuresOf(
     tone: "plain",
   });
   const { joined, from } = flown;
+  const forecast = flown.seconds.find(({ joins }) => joins !== null)?.joins;
   const over =
     fastest.joins === null || joined === null
       ? ""
@@ -39,7 +40,10 @@ export function figuresOf(
   ).length;
   return [
     figure("Joined at", joined === null ? "not joined" : formatClock(joined), over),
-    figure("Lost by flying", seconds(losses.flown), `since ${formatClock(from)}`),
+    ...(forecast == null
+      ? []
+      : [figure("As the autopilot", formatClock(forecast), `forecast at ${formatClock(from)}`)]),
+    figure("Lost by flying", seconds(losses.flown)),
     ...(Math.round(losses.leader) === 0
       ? []
       : [

@@ -4,12 +4,15 @@
  * What J changes while the leader turns, or changes its speed, is the leader's doing.
  */
 
-import type { Second } from "./seconds";
+import { wrap180 } from "../units";
+import type { Flown, Second } from "./seconds";
 
 /** Seconds lost since the beginning, by flight time; less than 0 where time was gained. */
 export interface Point {
   readonly t: number;
   readonly lost: number;
+  /** With the leader's part. */
+  readonly inAll: number;
 }
 
 /** A stretch of the flight in which time was lost, and how. */
@@ -22,9 +25,9 @@ export interface Stretch {
 }
 
 export interface Losses {
-  /** By flying, the leader's part left out. */
+  /** Of a flight by hand the leader's part is left out of what is lost. */
   readonly points: readonly Point[];
-  /** In all, by flying [s]. */
+  /** By flying [s]; of the autopilot's flight all of it. */
   readonly flown: number;
   /** By what the leader did [s]; less than 0 where that was a gain. */
   readonly leader: number;
@@ -32,9 +35,8 @@ export interface Losses {
   readonly worst: readonly Stretch[];
 }
 
-/** Rises so close to each other are one stretch, if their reason is the same [s]. */
-const TOGETHER = 15;
-/** A stretch costs so much at least [s]. */
+/** A stretch is no longer than this, and costs so much at least [s]. */
+const LONGEST = 30;
 const LEAST = 1;
 const SHOWN = 3;
 /** Plans follow a leader that has changed something within so long [s]. */
@@ -43,39 +45,65 @@ const FOLLOWS = 10;
 const TURNING = 0.1;
 const CHANGING = 0.2;
 
-export function lossesOf(seconds: readonly Second[]): Losses {
+export function lossesOf({ seconds, byHand }: Pick<Flown, "seconds" | "byHand">): Losses {
   const points: Point[] = [];
-  let stretches: Stretch[] = [];
-  let [flown, leader, quietSince] = [0, 0, Number.NEGATIVE_INFINITY];
-  let before: Second | null = null; // the last one with a forecast
-  let last: Second | null = null;
+  let [flown, leader, newsAt] = [0, 0, Number.NEGATIVE_INFINITY];
+  let joined: number | null = null; // as it was forecast last
+  let before: Second | null = null;
   for (const now of seconds) {
-    if (last !== null && isNews(last, now)) quietSince = now.t;
-    last = now;
-    if (now.joins === null) continue;
-    const more = before?.joins == null ? 0 : now.joins - before.joins;
-    if (now.t - quietSince <= FOLLOWS) leader += more;
-    else {
-      flown += more;
-      if (more > 0 && before !== null)
-        stretches = longer(stretches, { from: before.t, to: now.t, lost: more, how: howAt(now) });
-    }
-    points.push({ t: now.t, lost: flown });
+    if (before !== null && isNews(before, now)) newsAt = now.t;
     before = now;
+    if (now.joins === null) continue;
+    const more = now.joins - (joined ?? now.joins);
+    if (byHand && now.t - newsAt <= FOLLOWS) leader += more;
+    else flown += more;
+    points.push({ t: now.t, lost: flown, inAll: flown + leader });
+    joined = now.joins;
   }
-  const worst = stretches
-    .filter(({ lost }) => lost >= LEAST)
-    .sort((a, b) => b.lost - a.lost)
-    .slice(0, SHOWN)
-    .sort((a, b) => a.from - b.from);
-  return { points, flown, leader, worst };
+  return { points, flown, leader, worst: worstOf(points, seconds) };
 }
 
-function longer(stretches: readonly Stretch[], next: Stretch): Stretch[] {
-  const before = stretches.at(-1);
-  if (before === undefined || before.how !== next.how || next.from - before.to > TOGETHER)
-    return [...stretches, next];
-  return [...stretches.slice(0, -1), { ...before, to: next.to, lost: before.lost + next.lost }];
+/** The stretches in which most was lost, one after the other taken out of what is left. */
+function worstOf(points: readonly Point[], seconds: readonly Second[]): Stretch[] {
+  const worst: Stretch[] = [];
+  while (worst.length < SHOWN) {
+    const free = points.map(({ t }) => worst.every(({ from, to }) => t <= from || t >= to));
+    const found = steepest(points, free);
+    if (found === null) break;
+    const { from, to, lost } = found;
+    worst.push({ from: from.t, to: to.t, lost, how: howBetween(seconds, from.t, to.t) });
+  }
+  return worst.sort((a, b) => a.from - b.from);
+}
+
+/** Where most is lost within `LONGEST`, and that as short as it can be; null if it is no whole second. */
+function steepest(points: readonly Point[], free: readonly boolean[]) {
+  let best: { from: Point; to: Point; lost: number } | null = null;
+  points.forEach((from, k) => {
+    for (let n = k + 1; n < points.length; n += 1) {
+      const to = points[n];
+      if (to === undefined || to.t - from.t > LONGEST) break;
+      if (free[k] !== true || free[n] !== true) break;
+      const lost = to.lost - from.lost;
+      const more = lost - (best?.lost ?? LEAST - SLACK);
+      const isShorter = best !== null && to.t - from.t < best.to.t - best.from.t;
+      if (more > SLACK || (more > -SLACK && isShorter)) best = { from, to, lost };
+    }
+  });
+  return best as { from: Point; to: Point; lost: number } | null;
+}
+
+const SLACK = 1e-6;
+
+/** What was wrong for most of a stretch. */
+function howBetween(seconds: readonly Second[], from: number, to: number): string {
+  const votes = new Map<string, number>();
+  for (const each of seconds) {
+    const how = each.t >= from && each.t <= to ? howAt(each) : null;
+    if (how !== null) votes.set(how, (votes.get(how) ?? 0) + 1);
+  }
+  const [most] = [...votes].sort((a, b) => b[1] - a[1]);
+  return most?.[0] ?? "beside the path";
 }
 
 /** Whether the leader does something that plans have to follow. */
@@ -91,9 +119,10 @@ const OFF = 0.2;
 const WIDE = 3;
 const SLOW = 3;
 
-/** What was wrong, in words. */
-function howAt({ sample }: Second): string {
+/** What was wrong, in words; null for nothing that can be named. */
+function howAt({ sample }: Second): string | null {
   const { reference, pursuer, mode, commanded_tas_mps } = sample;
+  if (Math.abs(sample.leader.turn_rate_degps) > TURNING) return "the leader turned";
   if (mode === "escape") return "away from the leader, to keep the minimum";
   if (pursuer.tas_mps < commanded_tas_mps - SLOW) return "slower than commanded";
   if (reference.kind === "turn_rate" && Math.abs(reference.turn_rate_degps) > ASKED) {
@@ -102,14 +131,12 @@ function howAt({ sample }: Second): string {
     const turn = `the ${side > 0 ? "right" : "left"} turn`;
     if (short > OFF) return `wide of ${turn}`;
     if (short < -OFF) return `inside ${turn}`;
-    return `in ${turn}`;
+    return null;
   }
   const off =
-    reference.kind === "turn_rate"
-      ? 0
-      : ((pursuer.heading_deg - reference.heading_deg + 540) % 360) - 180;
+    reference.kind === "turn_rate" ? 0 : wrap180(pursuer.heading_deg - reference.heading_deg);
   if (Math.abs(off) > WIDE) return `${off > 0 ? "right" : "left"} of the heading asked for`;
   if (Math.abs(pursuer.turn_rate_degps) > ASKED)
     return `turning ${pursuer.turn_rate_degps > 0 ? "right" : "left"} where the path is straight`;
-  return "beside the path";
+  return null;
 }

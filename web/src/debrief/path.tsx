@@ -6,9 +6,10 @@ import type { PathPoint } from "../wire";
 import type { Stretch } from "./losses";
 import type { Flown } from "./seconds";
 
-/** The box that it is drawn in [px], and its edge. */
+/** The box that it is drawn in: so wide, at least and at most so high; and its edge [px]. */
 const WIDTH = 420;
-const HEIGHT = 260;
+const LOWEST = 130;
+const HIGHEST = 300;
 const EDGE = 26;
 /** The bar of the scale is one of these [NM]. */
 const SCALES = [1, 2, 5, 10, 20, 50, 100] as const;
@@ -30,7 +31,7 @@ export function PathPicture({ history, flown, fastest, worst, now }: Props) {
   const leader = flown.seconds.map(({ sample }) => sample.leader);
   const all: Place[] = [...own, ...leader, ...fastest];
   if (all.length === 0) return null;
-  const { pixel, scale } = boxOf(all);
+  const { pixel, scale, height } = boxOf(all);
   const spot = ({ from, to }: Stretch) =>
     flown.seconds.filter(({ t }) => t >= from && t <= to).map(({ sample }) => sample.pursuer);
   const bar = SCALES.findLast((miles) => miles * NM * scale <= WIDTH / 3) ?? SCALES[0];
@@ -40,7 +41,7 @@ export function PathPicture({ history, flown, fastest, worst, now }: Props) {
   return (
     <svg
       class="debrief-path"
-      viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
+      viewBox={`0 0 ${WIDTH} ${height}`}
       role="img"
       aria-label={`Seen from above, north up: the path of ${started?.pursuer.ident ?? "own ship"}, solid, over the one to compare with, dashed`}
     >
@@ -57,7 +58,7 @@ export function PathPicture({ history, flown, fastest, worst, now }: Props) {
       <Word at={leader[0]} pixel={pixel} text="LEADER" name="leader" />
       {flown.joined !== null && <Word at={end} pixel={pixel} text="JOINED" name="own" />}
       {now !== null && <circle class="debrief-now" {...centre(pixel(now))} r="4.5" />}
-      <g class="debrief-scale" transform={`translate(${WIDTH - EDGE / 2 - wide} ${HEIGHT - 8})`}>
+      <g class="debrief-scale" transform={`translate(${WIDTH - EDGE / 2 - wide} ${height - 8})`}>
         <path d={`M0-4v4h${wide}v-4`} />
         <text x={wide / 2} y="-6" text-anchor="middle">
           {bar} NM
@@ -100,7 +101,7 @@ function Word(props: { at: Place | undefined; pixel: Pixel; text: string; name: 
 }
 
 /** All places in the box, the same scale both ways [px/m]. */
-function boxOf(places: readonly Place[]): { pixel: Pixel; scale: number } {
+function boxOf(places: readonly Place[]): { pixel: Pixel; scale: number; height: number } {
   const least = (axis: keyof Place) =>
     places.reduce((m, each) => Math.min(m, each[axis]), Infinity);
   const most = (axis: keyof Place) =>
@@ -108,15 +109,17 @@ function boxOf(places: readonly Place[]): { pixel: Pixel; scale: number } {
   const [west, east, south, north] = [least("x_m"), most("x_m"), least("y_m"), most("y_m")];
   const scale = Math.min(
     (WIDTH - 2 * EDGE) / Math.max(1, east - west),
-    (HEIGHT - 2 * EDGE) / Math.max(1, north - south),
+    (HIGHEST - 2 * EDGE) / Math.max(1, north - south),
   );
   const [x0, y0] = [(west + east) / 2, (south + north) / 2];
   const rounded = (value: number) => Math.round(10 * value) / 10;
+  const height = Math.max(LOWEST, Math.round(scale * (north - south)) + 2 * EDGE);
   return {
     scale,
+    height,
     pixel: ({ x_m, y_m }) => [
       rounded(WIDTH / 2 + scale * (x_m - x0)),
-      rounded(HEIGHT / 2 - scale * (y_m - y0)),
+      rounded(height / 2 - scale * (y_m - y0)),
     ],
   };
 }

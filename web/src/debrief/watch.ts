@@ -5,7 +5,7 @@ import { lessonOf } from "../lessons/lessons";
 import type { Actions, Session } from "../session";
 
 export function openDebriefs(session: Session, actions: Pick<Actions, "pause">): void {
-  const { flight, status, recording, debriefOpen, lost } = session;
+  const { flight, status, recording, debriefOpen, sceneMaximised, lost } = session;
   /** The flight that is flown by hand, and the one whose debrief was opened. */
   let flown: string | null = null;
   let opened: string | null = null;
@@ -24,7 +24,9 @@ export function openDebriefs(session: Session, actions: Pick<Actions, "pause">):
     opened = id;
     untracked(() => {
       debriefOpen.value = true;
-      if (now.joined && !ended && lessonOf(status.value?.scenario) !== null) actions.pause();
+      if (lessonOf(status.value?.scenario) === null) return;
+      sceneMaximised.value = true;
+      if (!ended && !flight.clock.value.ended) actions.pause();
     });
   });
 }

@@ -41,10 +41,11 @@ export function LessonCard({ session, actions, lesson }: Props & { lesson: Lesso
       <header>
         <h2>{lesson.title}</h2>
         {isFlown && <b class="lesson-off">{sayOff(sample)}</b>}
-        {!isBegun && <Begin session={session} actions={actions} lesson={lesson} />}
+        {hands.value === null && !isOver && (
+          <Begin session={session} actions={actions} lesson={lesson} isFirst={!isBegun} />
+        )}
       </header>
-      <p>{lesson.card}</p>
-      {isBegun && (
+      {isBegun ? (
         <ol>
           {lesson.steps.map(({ text }, k) => (
             <li key={text} class={done[k] === true ? "done" : ""}>
@@ -53,19 +54,22 @@ export function LessonCard({ session, actions, lesson }: Props & { lesson: Lesso
             </li>
           ))}
         </ol>
+      ) : (
+        <p>{lesson.card}</p>
       )}
       {isBegun && <Aloud session={session} steps={`${count} of ${done.length} steps done.`} />}
     </aside>
   );
 }
 
-/** Takes control and lets the flight go on; it has the focus, so that Enter begins. */
-function Begin({ session, actions, lesson }: Props & { lesson: Lesson }) {
+/** Takes control and lets the flight go on; at first it has the focus, so that Enter begins. */
+function Begin(props: Props & { lesson: Lesson; isFirst: boolean }) {
+  const { session, actions, lesson, isFirst } = props;
   const button = useRef<HTMLButtonElement>(null);
   const isReady = session.flight.read.value.now !== null;
   useEffect(() => {
-    if (isReady) button.current?.focus();
-  }, [isReady]);
+    if (isReady && isFirst) button.current?.focus();
+  }, [isReady, isFirst]);
   return (
     <button
       ref={button}

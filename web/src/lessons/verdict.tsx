@@ -37,6 +37,7 @@ export function Verdict({ session, actions, lesson, flown, isLost }: Props) {
   const next = LESSONS[LESSONS.indexOf(lesson) + 1];
   const fly = (name: string) => () => {
     session.debriefOpen.value = false;
+    session.sceneMaximised.value = false;
     actions.start(name);
   };
   const known = best.value[scenario];

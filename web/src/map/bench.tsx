@@ -9,6 +9,7 @@ import { OthersForm } from "./others-form";
 import { Remedies } from "./remedies";
 import { TakeAlong } from "./take-along";
 import { twoTimes } from "./two-times";
+import "./bench.css";
 
 export function MapBench({ session, actions }: { session: Session; actions: Actions }) {
   const { map } = session;

@@ -13,6 +13,7 @@ import { Grips } from "./grips";
 import { nearestLabels, OthersLayer } from "./others-layer";
 import { AreaEnd, MapMessage, OwnShipThere, WindDial } from "./symbols";
 import "./map.css";
+import "./bench.css";
 
 const PLAN = signal<DisplayMode>("PLAN");
 

@@ -1,9 +1,13 @@
 /** What the crew does with relative guidance: designate, accept, engage, disconnect; one step a button. */
 
+import { late } from "../late";
 import { Panel } from "../parts";
 import { type Actions, isFlying, type Session } from "../session";
 import type { Guidance } from "../store/states";
 import type { Engagement } from "../wire";
+
+const Switches = late(async () => (await import("./crew")).Switches, "");
+const Selections = late(async () => (await import("./crew")).Selections, "");
 
 /** What can be done in a state: the next step, and the way back. */
 interface Steps {
@@ -39,14 +43,14 @@ const STEPS: Record<Guidance, Steps> = {
     next: { text: "Engage", to: "engaged" },
     back: "Cancel",
   },
-  converge: { says: "Guidance flies the path.", next: null, back: "Disconnect" },
+  converge: { says: "Guidance commands the path.", next: null, back: "Disconnect" },
   capture: { says: "Guidance closes onto the leader's route.", next: null, back: "Disconnect" },
   follow: { says: "Guidance keeps the spacing.", next: null, back: "Disconnect" },
   escape: { says: "Guidance turns away from the leader.", next: null, back: "Disconnect" },
   infeasible: { says: "No path to its slot now; it is tried again.", next: null, back: "Cancel" },
   unable: { says: "No path to fly now; it is tried again.", next: null, back: "Disconnect" },
   data_lost: {
-    says: "Nothing is heard of the leader. The autopilot holds the heading that you select.",
+    says: "Nothing is heard of the leader: the heading that you select is held.",
     next: null,
     back: "Cancel",
   },
@@ -56,13 +60,14 @@ export function Engage(props: { session: Session; actions: Actions }) {
   const { state, hasLapsed, droppedAt } = props.session.shown.numbers.value;
   const again = state === "proposed" ? againText(hasLapsed, droppedAt) : "";
   return (
-    <Panel name="engage" title="Relative guidance">
+    <Panel name="engage" title="Relative guidance" aside={<Switches {...props} />}>
       <p class={`hint ${again === "" ? "" : "again"}`}>
         {again === "" ? STEPS[state].says : again}
       </p>
       <div class="row">
         <EngageButtons {...props} />
       </div>
+      <Selections {...props} />
     </Panel>
   );
 }
