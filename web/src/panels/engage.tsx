@@ -48,7 +48,7 @@ const STEPS: Record<Guidance, Steps> = {
   infeasible: { says: "No path to its slot now; it is tried again.", next: null, back: "Cancel" },
   unable: { says: "No path to fly now; it is tried again.", next: null, back: "Disconnect" },
   data_lost: {
-    says: "Nothing is heard of the leader: the heading that you select is held.",
+    says: "Nothing is heard of the leader. The autopilot holds the heading that you select.",
     next: null,
     back: "Cancel",
   },
@@ -59,15 +59,18 @@ export function Engage(props: { session: Session; actions: Actions }) {
   const again = againText(numbers);
   return (
     <Panel name="engage" title="Relative guidance" aside={<Switches {...props} />}>
-      <p class={`hint ${again === "" ? "" : "again"}`}>
-        {again === "" ? STEPS[numbers.state].says : again}
-      </p>
+      <p class={`hint ${again === "" ? "" : "again"}`}>{again === "" ? saysOf(numbers) : again}</p>
       <div class="row">
         <EngageButtons {...props} />
       </div>
       <Selections {...props} />
     </Panel>
   );
+}
+
+function saysOf({ state, sample }: Numbers): string {
+  const { says } = STEPS[state];
+  return sample?.autopilot === false ? says.replace("The autopilot holds", "Hold") : says;
 }
 
 /** The next step, and the way back. */
