@@ -65,7 +65,7 @@ export function Debrief({ session, actions }: Props) {
 function Told({ session, actions, flown }: Props & { flown: Flown }) {
   const { flight, status, recording } = session;
   const history = session.history();
-  const losses = useMemo(() => lossesOf(flown.seconds), [flown]);
+  const losses = useMemo(() => lossesOf(flown), [flown]);
   const hand = useMemo(() => byHandOf(history, flown), [history, flown]);
   const fastest = useFastest(session, flown);
   useEffect(() => {
@@ -117,8 +117,10 @@ function Told({ session, actions, flown }: Props & { flown: Flown }) {
         <figure>
           <LostChart flown={flown} losses={losses} t={flight.read.value.t} />
           <figcaption class="hint">
-            Seconds lost by flying: how much later it would join, if the autopilot flew on from
-            there.
+            {flown.byHand
+              ? "Seconds lost by hand: how much later it joins if the autopilot flies on from there."
+              : "Seconds lost: how much later it joins than was forecast."}
+            {Math.round(losses.leader) !== 0 && " Dotted: with what the leader did."}
           </figcaption>
         </figure>
         <Where losses={losses} seek={actions.seek} />

@@ -42,8 +42,14 @@ export function figuresOf(
     figure("Joined at", joined === null ? "not joined" : formatClock(joined), over),
     ...(forecast == null
       ? []
-      : [figure("As the autopilot", formatClock(forecast), `forecast at ${formatClock(from)}`)]),
-    figure("Lost by flying", seconds(losses.flown)),
+      : [
+          figure(
+            flown.byHand ? "The autopilot's join" : "Forecast of it",
+            formatClock(forecast),
+            `as of ${formatClock(from)}`,
+          ),
+        ]),
+    figure(flown.byHand ? "Lost by hand" : "Lost since then", seconds(losses.flown)),
     ...(Math.round(losses.leader) === 0
       ? []
       : [

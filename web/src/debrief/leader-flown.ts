@@ -55,7 +55,7 @@ interface Turning {
   readonly to: number;
   /** [deg/s], positive to the right. */
   readonly fastest: number;
-  /** Heading after it [deg]. */
+  /** Heading after it, once that is steady [deg]. */
   readonly after: number;
 }
 
@@ -71,7 +71,7 @@ function turnsIn(flown: readonly LeaderSecond[]): Turning[] {
       turns[turns.length - 1] = { ...turn, to: t, fastest, after: leader.heading_deg };
     } else if (now !== 0) {
       turns.push({ from: t, to: t, fastest: rate, after: leader.heading_deg });
-    } else if (side !== 0 && turn !== undefined) {
+    } else if (turn !== undefined) {
       turns[turns.length - 1] = { ...turn, after: leader.heading_deg };
     }
     side = now;

@@ -18,20 +18,21 @@ const MOST_LINES = 6;
 export function LostChart({ flown, losses, t }: { flown: Flown; losses: Losses; t: number }) {
   const { points, worst } = losses;
   const { from, to } = flown;
-  const all = points.map(({ lost }) => lost);
+  const all = points.flatMap(({ lost, inAll }) => [lost, inAll]);
   const [least, most] = [Math.min(0, ...all), Math.max(1, ...all)];
   const x = (time: number) => LEFT + ((WIDTH - LEFT - 8) * (time - from)) / Math.max(1, to - from);
   const y = (lost: number) => TOP + ((HEIGHT - TOP - FOOT) * (most - lost)) / (most - least);
   const every = TIMES.find((each) => (to - from) / each <= MOST_LINES) ?? 3600;
   const step = STEPS.find((each) => (most - least) / each <= MOST_LINES - 2) ?? 1000;
   const times = multiples(every, from, to);
-  const line = points.map((each) => `${round(x(each.t))} ${round(y(each.lost))}`).join("L");
+  const line = (of: "lost" | "inAll") =>
+    `M${points.map((each) => `${round(x(each.t))} ${round(y(each[of]))}`).join("L")}`;
   return (
     <svg
       class="debrief-chart"
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       role="img"
-      aria-label={`Seconds lost by flying, from ${formatClock(from)} to ${formatClock(to)}: ${Math.round(losses.flown)} s in all; the table says where`}
+      aria-label={`Seconds lost, from ${formatClock(from)} to ${formatClock(to)}: ${Math.round(losses.flown)} s in all; the table says where`}
     >
       {worst.map((each, k) => (
         <g key={each.from} class="lost">
@@ -61,8 +62,9 @@ export function LostChart({ flown, losses, t }: { flown: Flown; losses: Losses; 
       ))}
       {points.length > 1 && (
         <>
-          <path class="under" d={`M${line}`} />
-          <path class="own" d={`M${line}`} />
+          <path class="leader" d={line("inAll")} />
+          <path class="under" d={line("lost")} />
+          <path class="own" d={line("lost")} />
         </>
       )}
       {t >= from && t <= to && (
