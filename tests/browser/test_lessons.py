@@ -1,4 +1,4 @@
-"""A lesson in a real browser, from its card to its mark: flown along the bar by a scripted stick."""
+"""A lesson in a real browser, from card to mark: flown along the bar by a scripted stick."""
 
 import re
 from pathlib import Path

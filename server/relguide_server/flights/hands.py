@@ -44,6 +44,7 @@ class Hands:
         self._served: Grip | None = None
         self._lost: Grip | None = None
         self._flown = ""
+        self._has = False  # whether the autopilot has let go since
         self._given: tuple[float, float] | None = None
         self._newest: Sample | None = None
         self._step: Second = 0.0
@@ -88,8 +89,11 @@ class Hands:
         if isinstance(document, Sample):
             self._newest = document
         elif isinstance(document, ControlChanged):
-            if document.autopilot and document.ident == self._flown:
-                self._flown, self._lost = "", self._served
+            if document.ident == self._flown:
+                # what the crew switches before the autopilot lets go says that it still flies
+                if document.autopilot and self._has:
+                    self._flown, self._lost = "", self._served
+                self._has = not document.autopilot
         elif isinstance(document, FlightStarted):
             self._step = document.step
 
@@ -120,6 +124,7 @@ class Hands:
             # after the autopilot the stick is neutral; after another crew it stands where it stood
             self._given = NEUTRAL if now.autopilot else None
         self._served, self._flown = wanted, wanted.ident
+        self._has = not now.autopilot
         if now.autopilot:
             yield SetAutopilot(on=False, ident=wanted.ident)
         if now.director != wanted.director:
