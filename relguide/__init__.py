@@ -56,8 +56,14 @@ if typing.TYPE_CHECKING:
     from relguide.flying.orders import LeaderHeading as LeaderHeading
     from relguide.flying.orders import LeaderLevel as LeaderLevel
     from relguide.flying.orders import LeaderSpeed as LeaderSpeed
+    from relguide.flying.orders import PursuerBank as PursuerBank
     from relguide.flying.orders import PursuerHeading as PursuerHeading
+    from relguide.flying.orders import PursuerSpeed as PursuerSpeed
+    from relguide.flying.orders import SetAutopilot as SetAutopilot
+    from relguide.flying.orders import SetDirector as SetDirector
     from relguide.flying.orders import SetEngagement as SetEngagement
+    from relguide.flying.orders import SetSpacing as SetSpacing
+    from relguide.flying.orders import Stick as Stick
     from relguide.flying.pilot_model import PilotModel as PilotModel
     from relguide.flying.queues import queue_up as queue_up
     from relguide.flying.queues import soonest_first as soonest_first
@@ -65,6 +71,9 @@ if typing.TYPE_CHECKING:
     from relguide.flying.scenarios import own_scenario as own_scenario
     from relguide.flying.scenarios import scenario as scenario
     from relguide.flying.scenarios import scenario_behind as scenario_behind
+    from relguide.flying.scripted_crew import CrewOrder as CrewOrder
+    from relguide.flying.scripted_crew import ScriptedCrew as ScriptedCrew
+    from relguide.flying.scripted_crew import with_crew as with_crew
     from relguide.flying.simulation import simulate as simulate
     from relguide.flying.tracks import RecordedTrack as RecordedTrack
     from relguide.flying.world import Aircraft as Aircraft
@@ -161,6 +170,12 @@ _HOMES = {
     "LeaderLevel": "relguide.flying.orders",
     "LeaderSpeed": "relguide.flying.orders",
     "PursuerHeading": "relguide.flying.orders",
+    "PursuerBank": "relguide.flying.orders",
+    "PursuerSpeed": "relguide.flying.orders",
+    "SetAutopilot": "relguide.flying.orders",
+    "SetDirector": "relguide.flying.orders",
+    "SetSpacing": "relguide.flying.orders",
+    "Stick": "relguide.flying.orders",
     "SetEngagement": "relguide.flying.orders",
     "PilotModel": "relguide.flying.pilot_model",
     "queue_up": "relguide.flying.queues",
@@ -172,6 +187,9 @@ _HOMES = {
     "load_track": "relguide.flying.recordings.files",
     "Settings": "relguide.flying.guidance.settings",
     "load_settings": "relguide.flying.guidance.settings",
+    "CrewOrder": "relguide.flying.scripted_crew",
+    "ScriptedCrew": "relguide.flying.scripted_crew",
+    "with_crew": "relguide.flying.scripted_crew",
     "simulate": "relguide.flying.simulation",
     "Aircraft": "relguide.flying.world",
     "Declared": "relguide.flying.world",
@@ -248,6 +266,7 @@ __all__ = [
     "Certificate",
     "ChangeLevel",
     "Command",
+    "CrewOrder",
     "Declared",
     "DeclaredLeader",
     "Disc",
@@ -289,18 +308,25 @@ __all__ = [
     "Pose",
     "PromiseChanged",
     "Pursuer",
+    "PursuerBank",
     "PursuerHeading",
+    "PursuerSpeed",
     "Reason",
     "Recorded",
     "RecordedTrack",
     "Sample",
     "Samples",
     "Scenario",
+    "ScriptedCrew",
     "SeparationLost",
+    "SetAutopilot",
+    "SetDirector",
     "SetEngagement",
+    "SetSpacing",
     "Settings",
     "Situation",
     "Situations",
+    "Stick",
     "Straight",
     "TimeRow",
     "Times",
@@ -334,6 +360,7 @@ __all__ = [
     "simulate",
     "soonest_first",
     "wind_from",
+    "with_crew",
 ]
 
 

@@ -48,6 +48,12 @@ def test_what_is_used_beside_plan_is_loaded_when_asked_for() -> None:
             "flying.orders": (
                 "IntentKnown", "LeaderData", "LeaderHeading", "LeaderSpeed", "PursuerHeading",
                 "SetEngagement",
+                "PursuerBank",
+                "PursuerSpeed",
+                "SetAutopilot",
+                "SetDirector",
+                "SetSpacing",
+                "Stick",
             ),
             "flying.simulation": ("simulate",),
             "flying.world": ("Aircraft", "Declared", "Guided", "Link", "Recorded", "World"),

@@ -95,6 +95,7 @@ class PursuerBankOrder(CrewLine):
     """The crew selects the bank that plans turn with."""
 
     pursuer_max_bank_deg: Bank
+    """No more than the autopilot banks."""
 
     def command(self) -> CrewCommand:
         """What the flight is given."""
@@ -174,6 +175,7 @@ class LeaderDataOrder(CrewLine):
     """The leader's reports are received, or not."""
 
     leader_data_received: bool
+    """Whether they are received from then on."""
 
     def command(self) -> CrewCommand:
         """What the flight is given."""
@@ -215,9 +217,12 @@ def expect_one(line: Any, known: Mapping[str, Any]) -> Any:
 
 
 def kind_in(line: Any, known: Mapping[str, Any]) -> str:
-    """The tag of the kind of order that a line is; empty if it is of none of these."""
-    kinds = (known[name].__name__ for name in line if name in known)
-    return TAG + next(kinds, "")
+    """The tag of the kind of order that a line is, read or not; `TAG` alone if of none of these."""
+    if isinstance(line, Strict):
+        kinds = [type(line)] if type(line) in known.values() else []
+    else:
+        kinds = [known[name] for name in line if name in known]
+    return TAG + "".join(kind.__name__ for kind in kinds[:1])
 
 
 CrewOrderLine = Annotated[

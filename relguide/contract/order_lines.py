@@ -18,7 +18,7 @@ from relguide.contract.crew_lines import (
 from relguide.contract.intent_bodies import ClimbRate
 from relguide.contract.other_bodies import Tas
 from relguide.contract.places import Altitude
-from relguide.contract.refusal import Strict
+from relguide.contract.refusal import TAG, Strict
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.flying.orders import (
     IntentKnown,
@@ -84,6 +84,7 @@ class IntentOrder(LeaderLine):
     """The leader's intent is given to the pursuer, or withdrawn."""
 
     intent_known: bool
+    """Whether the pursuer knows it from then on."""
 
     def command(self) -> LeaderCommand:
         """What the flight is given."""
@@ -102,7 +103,7 @@ _LINES = {**_LEADER_LINES, **CREW_LINES}
 
 def _kind_of(line: Any) -> str:
     kind = kind_in(line, _LEADER_LINES)
-    return kind if len(kind) > 1 else "#crew"
+    return kind if kind != TAG else "#crew"
 
 
 OrderLine = Annotated[

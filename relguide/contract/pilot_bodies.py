@@ -27,7 +27,7 @@ class PilotBody(Strict):
     """ω_c, how fast it takes errors away [rad/s]."""
     delay_s: Annotated[float, Accepted(DELAY)] = _USUAL.delay
     """τ, how late it does so."""
-    remnant: Annotated[float, Accepted(REMNANT)] = _USUAL.remnant
+    remnant_share: Annotated[float, Accepted(REMNANT)] = _USUAL.remnant
     """Variance of the noise that it adds over that of the errors that it sees."""
     threshold_deg: Annotated[float, Accepted(THRESHOLD)] = round(degrees(_USUAL.threshold), 9)
     """An error of the bank that it lets stand."""
@@ -52,7 +52,7 @@ def pilot_of(wanted: ByHand) -> PilotModel | None:
     return PilotModel(
         bandwidth=wanted.bandwidth_radps,
         delay=wanted.delay_s,
-        remnant=wanted.remnant,
+        remnant=wanted.remnant_share,
         threshold=radians(wanted.threshold_deg),
         reaction=wanted.reaction_s,
     )

@@ -6,7 +6,13 @@ from relguide.flying.aircraft_documents import Bars
 from relguide.flying.documents import ControlChanged, Document
 from relguide.flying.engagement import autopilot_refusal
 from relguide.flying.fleet import Fleet
-from relguide.flying.guidance.announcements import Event, NewPlan, NewPromise, ProposedPlan
+from relguide.flying.guidance.announcements import (
+    Alerted,
+    Event,
+    NewPlan,
+    NewPromise,
+    ProposedPlan,
+)
 from relguide.flying.orders import SetAutopilot, SetDirector, Stick
 from relguide.flying.pursuit import Pursuit
 from relguide.flying.world import Guided
@@ -47,8 +53,10 @@ def mind_reaction(one: Pursuit, fleet: Fleet, events: Sequence[Event], t: Second
 
 
 def is_announced(event: Event) -> bool:
-    """Whether a crew hears of an event, and has to look."""
+    """Whether a crew hears of an event, and has to look: not of an alert that is over."""
     match event:
+        case Alerted(cleared=cleared):
+            return not cleared
         case NewPlan(announced=announced):
             return announced
         case ProposedPlan() | NewPromise():

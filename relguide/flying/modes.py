@@ -16,10 +16,11 @@ MAY_FOLLOW: Mapping[Mode, frozenset[Mode]] = {
     "heading": frozenset({"converge", "escape"}),
     "converge": frozenset({"capture", "follow", "heading", "escape"}),
     "capture": frozenset({"follow", "converge", "heading", "escape"}),
-    "follow": frozenset({"converge", "heading", "escape"}),
+    "follow": frozenset({"capture", "converge", "heading", "escape"}),
     "escape": frozenset({"converge", "heading"}),
 }
-"""Where each mode may lead. The leader's gate is passed from converge where the path ends in it."""
+"""Where each mode may lead. The leader's gate is passed from converge where the path ends in it;
+from follow the spacing is opened or closed anew where the crew asks for another D."""
 NUMBERS: Mapping[Mode, int] = {
     "heading": HOLD,
     "converge": CONVERGE,

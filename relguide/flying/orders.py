@@ -151,8 +151,9 @@ class PursuerBank:
 
     def __post_init__(self) -> None:
         """Refuse a bank outside the accepted range."""
-        expect_within("bank", self.bank / DEG, *BANK)
-        object.__setattr__(self, "bank", _as_recorded(self.bank))
+        bank = number("bank", self.bank)
+        expect_within("bank", bank / DEG, *BANK)
+        object.__setattr__(self, "bank", _as_recorded(bank))
         text("ident", self.ident)
 
 

@@ -1,6 +1,6 @@
 """A crew that reacts: it waits for what is said of its flight, and orders what its script says."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -17,7 +17,7 @@ from relguide.flying.documents import (
 )
 from relguide.flying.engagement import MAY_BECOME, Engagement
 from relguide.flying.orders import Command, CrewCommand, SetEngagement, no_commands
-from relguide.planning.inputs import expect, number
+from relguide.planning.inputs import expect, expect_function, number
 from relguide.planning.reprs import as_code
 from relguide.units import Second
 
@@ -61,7 +61,8 @@ class CrewOrder:
         expect("command", self.command, *get_args(CrewCommand))
         if not isinstance(self.on, str) or self.on not in get_args(Cue):
             raise ValueError(f"on must be one of {', '.join(get_args(Cue))}, not {self.on!r}.")
-        if number("after", self.after) < 0.0:
+        object.__setattr__(self, "after", number("after", self.after))
+        if self.after < 0.0:
             raise ValueError(f"after must be 0 s or more, not {self.after:g} s.")
 
 
@@ -77,8 +78,9 @@ class ScriptedCrew:
     withdrawn. An engagement that waits is forgotten when another comes first.
     """
 
-    def __init__(self, script: Iterable[CrewOrder]) -> None:
+    def __init__(self, script: Sequence[CrewOrder]) -> None:
         """A crew that knows its script, and has seen nothing."""
+        expect("script", script, list, tuple)
         self._script = tuple(script)
         for order in self._script:
             expect("An order of a crew", order, CrewOrder)
@@ -163,7 +165,7 @@ class ScriptedCrew:
 
 
 def with_crew(
-    script: Iterable[CrewOrder],
+    script: Sequence[CrewOrder],
     flown: Callable[..., Iterator[Document]],
     commands: Commands = no_commands,
 ) -> Iterator[Document]:
@@ -175,6 +177,8 @@ def with_crew(
         commands: what else is ordered.
     """
     crew = ScriptedCrew(script)
+    expect_function("flown", flown)
+    expect_function("commands", commands)
     return crew.follow(flown(commands=both(commands, crew.commands)))
 
 

@@ -12,8 +12,8 @@ window.pilot = { stick: 0, follows: false, bar: 0 };
       });
     }
   };
-  // past the dead zone; full at 15 degrees: what is seen is old by half a second of flight at ×5
-  const deflection = () => Math.sign(pilot.bar) * Math.min(1, 0.08 + Math.abs(pilot.bar) / 15);
+  // Past the dead zone, and full at 10 degrees: on a busy machine what is seen is old by half a second.
+  const deflection = () => Math.sign(pilot.bar) * Math.min(1, 0.08 + Math.abs(pilot.bar) / 10);
   navigator.getGamepads = () => [
     {
       id: "Scripted stick (Vendor: 0000)",

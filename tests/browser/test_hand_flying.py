@@ -20,7 +20,7 @@ from tests.browser.service import Service, Watch
 
 PILOT = (Path(__file__).parent / "pilot.js").read_text()
 """A controller that follows the bar, in place of the browser's own."""
-FOLLOWED = 60.0
+FOLLOWED = 40.0
 """So long a bar is followed [s of flight]."""
 
 Heard = dict[float, dict[str, Any]]
@@ -63,6 +63,7 @@ def test_a_controller_follows_the_bar_and_the_flight_is_flown_again_to_the_bit(
 ) -> None:
     take_control(page)
     expect(page.locator(".panel.stick")).to_contain_text("Scripted stick")
+    page.get_by_role("button", name="×2", exact=True).click()
     page.evaluate("pilot.stick = 0.7")
     bank_of(page, heard, 15.0)
     page.evaluate("pilot.follows = true")

@@ -102,7 +102,10 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
               ) : session.chartsOpen.value ? (
                 <Charts session={session} actions={actions} />
               ) : (
-                !(isFlown && narrow.value) && <Scene session={session} actions={actions} />
+                !(isFlown && narrow.value) &&
+                session.hands.value?.isSlow.value !== true && (
+                  <Scene session={session} actions={actions} />
+                )
               )}
               <OutageNotice session={session} actions={actions} />
             </div>

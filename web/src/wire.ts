@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-619eb67bc1f6";
+export const PROTOCOL = "relguide-0172f1853750";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -1364,7 +1364,7 @@ export interface PauseCommand {
 export interface PilotBody {
   bandwidth_radps?: number;
   delay_s?: number;
-  remnant?: number;
+  remnant_share?: number;
   threshold_deg?: number;
   reaction_s?: number;
 }

@@ -136,3 +136,16 @@ test.each(Object.entries(COLOURS.light))("%s reads on paper", (name, colour) => 
   if (name !== "glass" && name !== "halo")
     expect(contrast(colour, COLOURS.light.glass)).toBeGreaterThanOrEqual(4.5);
 });
+
+describe.each([0, 1])("the instrument to fly by, palette %s", (palette) => {
+  const style = readFileSync("src/pfd/pfd.css", "utf8");
+  const ground = (name: string) =>
+    [...style.matchAll(new RegExp(`--pfd-${name}: (#[0-9a-f]{6});`, "g"))][palette]?.[1] ?? "";
+  const marks = palette === 0 ? TOKENS : DISTINCT;
+
+  test.each(["sky", "earth"])("what is drawn on the %s is seen on it", (name) => {
+    expect(contrast(marks.get("scale") ?? "", ground(name))).toBeGreaterThan(4.5);
+    for (const mark of ["ownship", "plan", "caution"])
+      expect(contrast(marks.get(mark) ?? "", ground(name)), mark).toBeGreaterThan(3);
+  });
+});

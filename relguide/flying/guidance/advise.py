@@ -98,7 +98,8 @@ def advise(
         memory, news = _stay_or_change(memory, belief, assignment, planner)
         events += news
     elif _has_left_capture(memory, belief, assignment):
-        reason = "deviation" if _has_strayed(memory, belief, assignment) else "leader_turned"
+        strayed = _has_strayed(memory, belief, assignment)
+        reason: PlanReason = "deviation" if strayed else "leader_turned"
         memory, news = _plan_again(memory, belief, assignment, planner, reason=reason)
         events += news
     if engaged:

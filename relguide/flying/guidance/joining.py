@@ -10,7 +10,7 @@ from relguide.flying.guidance.plan_news import may_speak
 from relguide.flying.guidance.settings import Settings
 from relguide.kernels.flight.guide import Act
 from relguide.planning.phrases import distance
-from relguide.units import Second
+from relguide.units import KT, Second
 
 
 def promise_anew(
@@ -53,6 +53,18 @@ def _compare_later_plans(memory: Memory, belief: Belief, assignment: Assignment)
     return memory._replace(announced=last._replace(joins=ahead.join_time, quiet_until=quiet))
 
 
+def _other_speed(belief: Belief, assignment: Assignment) -> str:
+    """That a selected speed does not keep the spacing, in a sentence; empty if it does."""
+    selected, leader = assignment.selected_tas, belief.leader.tas
+    slack = assignment.settings.leader_speed + belief.speed_slack
+    if selected == 0.0 or abs(selected - leader) <= slack:
+        return ""
+    return (
+        f"{selected / KT:.0f} kt is selected and the leader flies {leader / KT:.0f} kt: it is not "
+        "kept until guidance sets the speed."
+    )
+
+
 def _change(
     joins: Second, was: Second, belief: Belief, settings: Settings, *, settled: bool
 ) -> float:
@@ -68,6 +80,8 @@ def judge_spacing(
 ) -> tuple[Memory, list[Event]]:
     """Say so once the pursuer follows and has been out of the gate for a minute, and once it is in.
 
+    A speed that the crew has selected and that is not the leader's is said at once.
+
     Args:
         memory: as it is.
         belief: what is known now.
@@ -81,13 +95,15 @@ def judge_spacing(
         abs(along) > settings.joined_along + belief.place_slack
         or abs(done.right) > settings.joined_across + belief.place_slack
     )
-    if memory.mode == "follow" and is_out:
+    other_speed = _other_speed(belief, assignment)
+    if memory.mode == "follow" and (is_out or other_speed):
         since = t if out.since == LONG_AGO else out.since
         memory = memory._replace(out_of_gate=out._replace(since=since))
-        if out.said or t - since < settings.out_for:
+        if out.said or (t - since < settings.out_for and not other_speed):
             return memory, []
         where = "too far behind" if along > 0.0 else "too near"
-        text = f"Spacing: {distance(abs(along))} {where}, {distance(abs(done.right))} aside."
+        text = f"{distance(abs(along))} {where}, {distance(abs(done.right))} aside."
+        text = f"Spacing: {other_speed or text}"
     else:
         memory = memory._replace(out_of_gate=out._replace(since=LONG_AGO))
         if not out.said:

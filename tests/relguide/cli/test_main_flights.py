@@ -313,7 +313,7 @@ def test_standard_input_is_one_thing(run: Run, options: tuple[str, ...], sentenc
 
 @pytest.mark.slow
 def test_a_crew_flies_all_steps_and_its_recording_is_flown_again_alike(run: Run) -> None:
-    """By the example's crew, which designates, accepts, engages, overrides, disconnects, engages."""
+    """By the example's crew: designates, accepts, engages, overrides, disconnects, engages."""
     code, out, _ = run("fly", "fig_6b", "--crew", CREW, "--seed", "7", "--record", "a.jsonl")
     assert (code, json.loads(out)["joined"]) == (0, True)
     said = [d for d in replay("a.jsonl") if isinstance(d, EngagementChanged | AssignmentChanged)]

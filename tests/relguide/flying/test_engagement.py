@@ -23,13 +23,17 @@ from relguide.flying.orders import (
     LeaderData,
     LeaderSpeed,
     PursuerHeading,
+    SetAutopilot,
+    SetDirector,
     SetEngagement,
+    Stick,
 )
 from relguide.flying.scenarios import own_scenario, scenario
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.units import DEG, KT, NM
+from tests.flights import random_start
 
 T = TypeVar("T")
 Orders = dict[float, Command]
@@ -163,7 +167,7 @@ def test_an_accepted_proposal_that_can_no_longer_be_flown_disarms() -> None:
 
 
 @pytest.mark.parametrize(
-    "order", [PursuerHeading(heading=93.0 * DEG), LeaderSpeed(tas=197.0)], ids=["own", "leader"]
+    "order", [PursuerHeading(heading=110.0 * DEG), LeaderSpeed(tas=170.0)], ids=["own", "leader"]
 )
 def test_an_accepted_proposal_lapses_when_either_drifts_slowly_from_it(order: Command) -> None:
     """Each new proposal is nearly the one before, but no longer the one that was accepted."""
@@ -221,3 +225,126 @@ def test_no_step_of_the_table_leads_to_a_flight_that_was_not_accepted() -> None:
             allowed = not refusal(now, then, proposed=True)
             assert allowed == (then in MAY_BECOME[now])
     assert refusal("designated", "armed", proposed=False)
+
+
+ALL_ORDERS: dict[Engagement, Orders] = {
+    "off": {},
+    "designated": {2.0: to("designated")},
+    "armed": {2.0: to("designated"), 6.0: to("armed")},
+    "engaged": {2.0: to("designated"), 6.0: to("armed"), 10.0: to("engaged")},
+}
+
+
+@pytest.mark.parametrize("director", [True, False])
+@pytest.mark.parametrize("autopilot", [True, False])
+@pytest.mark.parametrize("engagement", ALL_ORDERS)
+def test_autopilot_director_and_bars_agree_in_every_engagement(
+    engagement: Engagement, autopilot: bool, director: bool
+) -> None:
+    orders = dict(ALL_ORDERS[engagement])
+    if not autopilot:
+        orders[14.0] = SetAutopilot(on=False)
+    if director:
+        orders[15.0] = SetDirector(on=True)
+    guidance = of(flown(orders, 20.0), Sample)[-1].guidance[0]
+    assert guidance.engagement == engagement
+    assert guidance.mode == ("converge" if engagement == "engaged" else "heading")
+    assert (guidance.autopilot, guidance.director) == (autopilot, director)
+    assert bool(guidance.bars) == (director and engagement != "off")
+
+
+@pytest.mark.parametrize("autopilot", [True, False])
+@pytest.mark.parametrize("how", ["data", "disconnect"])
+def test_a_reversion_is_announced_and_the_bars_show_what_is_commanded_then(
+    how: str, autopilot: bool
+) -> None:
+    last: Command = LeaderData(received=False) if how == "data" else to("off")
+    orders: Orders = {0.0: SetDirector(on=True), 30.0: last}
+    if not autopilot:
+        orders[1.0] = SetAutopilot(on=False)
+    documents = flown(orders, 60.0, engagement="engaged")
+    when = 41.0 if how == "data" else 30.0
+    assert [(each.t, each.mode) for each in of(documents, ModeChanged)][-1] == (when, "heading")
+    (said,) = of(documents, EngagementChanged)
+    assert (said.t, said.previous) == (when, "engaged")
+    assert "holding" in said.message
+    before, after = (
+        [each.guidance[0] for each in of(documents, Sample) if a <= each.t < b]
+        for a, b in ((2.0, when), (when + 1.0, 61.0))
+    )
+    assert all(each.bars for each in before)
+    assert {each.mode for each in after} == {"heading"}
+    assert {each.autopilot for each in after} == {autopilot}
+    if how == "disconnect":
+        assert not any(each.bars for each in after)
+    else:
+        assert all(each.bars for each in after)
+        assert all(abs(each.bars[0].commanded_bank) < 30.0 * DEG for each in after)
+
+
+def test_a_heading_is_refused_while_guidance_flies_by_whatever_hand() -> None:
+    orders: Orders = {
+        5.0: PursuerHeading(heading=0.0),
+        10.0: SetAutopilot(on=False),
+        15.0: PursuerHeading(heading=0.0),
+    }
+    documents = flown(orders, 20.0, engagement="engaged")
+    said = of(documents, EngagementChanged)
+    assert [(each.t, each.previous, each.engagement) for each in said] == [
+        (5.0, "engaged", "engaged"),
+        (15.0, "engaged", "engaged"),
+    ]
+    assert {each.message for each in said} == {
+        "Relative guidance flies: disconnect it to select a heading."
+    }
+    assert of(documents, Sample)[-1].guidance[0].mode == "converge"
+
+
+def test_engagement_goes_on_while_a_crew_flies_by_hand() -> None:
+    orders: Orders = {0.0: SetAutopilot(on=False), **ALL_ORDERS["engaged"], 20.0: to("off")}
+    documents = flown(orders, 25.0)
+    changes = [each.engagement for each in of(documents, EngagementChanged)]
+    assert changes == ["designated", "armed", "engaged", "off"]
+    assert {each.guidance[0].autopilot for each in of(documents, Sample) if each.t > 0.0} == {False}
+
+
+def test_an_autopilot_that_takes_over_holds_the_heading_that_was_flown_to() -> None:
+    orders: Orders = {
+        0.0: SetAutopilot(on=False),
+        1.0: Stick(roll=0.5),
+        4.0: Stick(roll=0.0),
+        20.0: SetAutopilot(on=True),
+    }
+    own = {each.t: each.aircraft[0].heading for each in of(flown(orders, 60.0), Sample)}
+    assert abs(own[20.0] - own[0.0]) > 3.0 * DEG
+    assert own[60.0] == pytest.approx(own[20.0], abs=1.0 * DEG)
+
+
+@pytest.mark.parametrize(("seed", "accepts", "waits"), [(6, 20, 50), (12, 3, 40)])
+def test_a_changed_proposal_is_offered_again_and_one_order_accepts_it(
+    seed: int, accepts: int, waits: int
+) -> None:
+    """The crew engages too soon, is told why, accepts once more, and engages."""
+    engage = float(accepts + waits)
+    orders: Orders = {
+        float(accepts): to("armed"),
+        engage: to("engaged"),
+        engage + 2.0: to("armed"),
+        engage + 4.0: to("engaged"),
+    }
+    documents = flown(
+        orders, engage + 6.0, flight=own_scenario(random_start(seed)), engagement="designated"
+    )
+    said = of(documents, EngagementChanged)
+    assert [(each.previous, each.engagement) for each in said] == [
+        ("designated", "armed"),
+        ("armed", "designated"),
+        ("designated", "designated"),
+        ("designated", "armed"),
+        ("armed", "engaged"),
+    ]
+    assert said[1].message.startswith("The proposal has changed (")
+    assert said[1].message.endswith("): accept it again.")
+    assert said[2].message == said[1].message[:-1] + " first."
+    (first,) = of(documents, PlanChanged)
+    assert (first.t, first.reason) == (engage + 4.0, "engaged")

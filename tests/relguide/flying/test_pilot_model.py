@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from relguide.flying.by_hand import is_announced
 from relguide.flying.dispersion import random_situation
 from relguide.flying.documents import FlightEnded, PlanChanged, Sample
 from relguide.flying.fleet import Fleet
 from relguide.flying.flight import Scenario, fly, world_of
+from relguide.flying.guidance.announcements import Alerted
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.orders import SetAutopilot
 from relguide.flying.pilot_model import PilotModel
@@ -135,6 +137,15 @@ def test_what_is_announced_meanwhile_puts_no_reaction_off() -> None:
     assert fleet.hands[0, REACTS_AT] == 11.5
     fleet.react(0, 12.0, 1.5)
     assert fleet.hands[0, REACTS_AT] == 13.5
+
+
+def test_an_alert_that_is_over_is_nothing_to_look_at() -> None:
+    alert = Alerted(
+        subject="separation", level="caution", message="Separation in 60 s.",
+        predicted_least=9e3, predicted_at=60.0, cleared=False,
+    )  # fmt: skip
+    assert is_announced(alert)
+    assert not is_announced(replace(alert, cleared=True))
 
 
 def test_a_margin_is_kept_beside_d_min_while_a_crew_flies() -> None:

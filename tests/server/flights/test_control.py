@@ -18,7 +18,9 @@ from relguide_server.flights.control import (
     MOST_RATE,
     NOT_HELD,
     OVER,
+    RECORDING,
     TAKEN,
+    Standing,
 )
 from relguide_server.flights.frames import LONGEST, MOST, NOT_UNDERSTOOD, TOO_FAST
 from relguide_server.http.access import NOT_YOURS
@@ -32,7 +34,7 @@ from relguide.contract.messages import Tick, from_wire
 from relguide.contract.protocol import STREAM
 from relguide.contract.refusal import parse
 from relguide.contract.upstream import ControlAnswer
-from relguide.flying.documents import CommandGiven, Document, Sample
+from relguide.flying.documents import CommandGiven, Document, FlightStarted, Sample
 from relguide.flying.flight import fly
 from relguide.flying.orders import Command, SetAutopilot
 from relguide.flying.scenarios import scenario
@@ -273,6 +275,22 @@ def test_a_rate_above_5_and_hands_exclude_each_other(address: str) -> None:
     asyncio.run(scene())
 
 
+def test_a_stick_over_rest_is_refused_while_a_client_has_control(address: str) -> None:
+    async def scene() -> None:
+        async with Dial(address, flight_id) as crew:
+            await crew.ask(**TAKE)
+            await crew.until(lambda: not crew.autopilot)
+            answer = await asyncio.to_thread(move)
+            assert (answer.status_code, answer.json()["detail"]) == (409, HELD)
+
+    def move() -> httpx.Response:
+        command = {"command": "stick", "roll": 0.5}
+        return httpx.post(f"http://{address}/api/v1/flights/{flight_id}/commands", json=command)
+
+    flight_id = start(address)
+    asyncio.run(scene())
+
+
 def test_an_aircraft_without_a_crew_is_refused(address: str) -> None:
     async def scene() -> None:
         async with Dial(address, flight_id) as socket:
@@ -333,6 +351,14 @@ def test_the_end_of_a_flight_is_the_end_of_control() -> None:
 
     with serve(ideal_app(short)) as address:
         asyncio.run(scene(address, start(address, rate=5.0)))
+
+
+def test_a_recording_is_not_flown_by_hand() -> None:
+    started = next(document for document in fig_6b(lambda t: ()))
+    assert isinstance(started, FlightStarted)
+    standing = Standing(started=started, over=False, replay=True, rate=1.0, may_command=True)
+    assert standing.refusal("PURSUER") == RECORDING
+    assert replace(standing, replay=False).refusal("PURSUER") == ""
 
 
 @pytest.mark.parametrize("shown", ["token", "cookie"])

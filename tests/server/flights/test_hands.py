@@ -125,7 +125,10 @@ def test_who_gives_the_autopilot_the_controls_by_another_way_takes_them_from_the
         documents.append(document)
         if document.t < 4.0:
             assert not hands.lost
+            # a step's end is certain as soon as its stick is read
+            assert hands.ahead == (0.05 if document.t >= 1.0 else 0.0)
     assert hands.lost
+    assert hands.ahead == 0.0
     assert not hands.flown
     messages = [d.message for d in documents if isinstance(d, ControlChanged)]
     assert messages == ["You have control.", "The autopilot flies."]

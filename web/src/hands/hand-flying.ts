@@ -19,6 +19,8 @@ const PITCHES: Readonly<Record<string, number>> = { ArrowUp: -1, ArrowDown: 1 };
 const STEPS: Readonly<Record<string, number>> = { "4": -1, "5": 0, "6": 1 };
 /** What is measured is said anew so often [ms]. */
 const SAID_EVERY = 1000;
+/** So few frames a second, said twice in a row, are too few to fly by. */
+const TOO_FEW = 40;
 /** After a longer frame the stick goes on as if it had been so long [ms]. */
 const LONGEST_FRAME = 100;
 
@@ -30,6 +32,8 @@ export interface HandFlying {
   /** The name of the controller, or what to do to have one. */
   readonly controller: ReadonlySignal<string>;
   readonly measure: ReadonlySignal<Measure>;
+  /** Whether this machine draws too few frames with the scene beside the stick. */
+  readonly isSlow: ReadonlySignal<boolean>;
   /** Deflects the stick by the pad; null lets go of it. */
   drag(stick: Deflection | null): void;
   /** Banks 5° more to the right (1) or left (−1), or levels the wings (0). */
@@ -47,6 +51,7 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
   const wanted = signal<number | null>(null);
   const controller = signal("");
   const measure = signal(latency.measure());
+  const isSlow = signal(false);
   const held = new Set<string>();
   const listening = new AbortController();
   const { signal: until } = listening;
@@ -122,7 +127,10 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
     move(now);
     if (now - saidAt < SAID_EVERY) return;
     saidAt = now;
+    const { framesPerSecond: earlier } = measure.value;
     measure.value = latency.measure();
+    const fastest = Math.max(earlier, measure.value.framesPerSecond);
+    if (earlier > 0 && fastest < TOO_FEW) isSlow.value = true;
   }
 
   function step(way: number): void {
@@ -168,6 +176,7 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
     wanted,
     controller,
     measure,
+    isSlow,
     drag(deflection) {
       byPad = deflection ?? NEUTRAL;
       move(performance.now());

@@ -49,6 +49,9 @@ function Stick({ hands, actions }: { hands: HandFlying; actions: Actions }) {
         </div>
       </div>
       <Measured measure={hands.measure.value} />
+      {hands.isSlow.value && (
+        <p class="hint">The scene rests until you give back: drawn with it, the page was slow.</p>
+      )}
       <Said hands={hands} />
     </Panel>
   );
@@ -114,7 +117,7 @@ function Measured({ measure }: { measure: Measure }) {
   const delay =
     half === null || most === null
       ? ""
-      : ` · ${Math.round(half)} ms to the picture, 95 %: ${Math.round(most)} ms`;
+      : `, ${Math.round(half)} ms to the picture (95 %: ${Math.round(most)} ms)`;
   return (
     <p
       class="hint stick-measure"

@@ -3,6 +3,7 @@
 import { late } from "../late";
 import { Panel } from "../parts";
 import { type Actions, isFlying, type Session } from "../session";
+import type { Numbers } from "../store/numbers";
 import type { Guidance } from "../store/states";
 import type { Engagement } from "../wire";
 
@@ -16,14 +17,11 @@ interface Steps {
   readonly back: string;
 }
 
-/** Said of a proposal that has taken the place of the accepted path. */
-const LAPSED = "The path has become another one since you accepted it: accept it again.";
-
 /** Why a step is asked for that the crew has done before; "" if it has not. */
-function againText(hasLapsed: boolean, droppedAt: string): string {
-  if (droppedAt !== "")
-    return `Guidance was engaged until the leader was not heard of any more, at ${droppedAt}. Two steps engage it again: Accept, then Engage.`;
-  return hasLapsed ? LAPSED : "";
+function againText({ state, lapsed, droppedAt }: Numbers): string {
+  if (state !== "proposed") return "";
+  if (droppedAt === "") return lapsed;
+  return `Guidance was engaged until the leader was not heard of any more, at ${droppedAt}. Two steps engage it again: Accept, then Engage.`;
 }
 
 const STEPS: Record<Guidance, Steps> = {
@@ -50,26 +48,29 @@ const STEPS: Record<Guidance, Steps> = {
   infeasible: { says: "No path to its slot now; it is tried again.", next: null, back: "Cancel" },
   unable: { says: "No path to fly now; it is tried again.", next: null, back: "Disconnect" },
   data_lost: {
-    says: "Nothing is heard of the leader: the heading that you select is held.",
+    says: "Nothing is heard of the leader. The autopilot holds the heading that you select.",
     next: null,
     back: "Cancel",
   },
 };
 
 export function Engage(props: { session: Session; actions: Actions }) {
-  const { state, hasLapsed, droppedAt } = props.session.shown.numbers.value;
-  const again = state === "proposed" ? againText(hasLapsed, droppedAt) : "";
+  const { value: numbers } = props.session.shown.numbers;
+  const again = againText(numbers);
   return (
     <Panel name="engage" title="Relative guidance" aside={<Switches {...props} />}>
-      <p class={`hint ${again === "" ? "" : "again"}`}>
-        {again === "" ? STEPS[state].says : again}
-      </p>
+      <p class={`hint ${again === "" ? "" : "again"}`}>{again === "" ? saysOf(numbers) : again}</p>
       <div class="row">
         <EngageButtons {...props} />
       </div>
       <Selections {...props} />
     </Panel>
   );
+}
+
+function saysOf({ state, sample }: Numbers): string {
+  const { says } = STEPS[state];
+  return sample?.autopilot === false ? says.replace("The autopilot holds", "Hold") : says;
 }
 
 /** The next step, and the way back. */

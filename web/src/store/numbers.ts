@@ -137,8 +137,8 @@ export interface Numbers {
   /** The plan that is flown, and what became of it when there is none. */
   readonly plan: Planned | null;
   readonly state: Guidance;
-  /** Whether what is proposed has taken the place of a path that the crew had accepted. */
-  readonly hasLapsed: boolean;
+  /** How what is proposed differs from the path that the crew had accepted; "" if that still stands. */
+  readonly lapsed: string;
   /** When the leader's data were lost while guidance was engaged, until the crew does the next step; "" else. */
   readonly droppedAt: string;
   /** Whether the minimum is lost or will be, in the words of the message line; null while it is kept. */
@@ -202,7 +202,7 @@ export function numbersOf(flight: Moment): Numbers {
     nearestOther: guided === null ? null : nearestOther(flight, guided),
     plan: guided === null ? null : shownPlan(flight),
     state: guidance(flight),
-    hasLapsed: hasLapsed(flight),
+    lapsed: hasLapsed(flight) ? inPageUnits(flight.engagement?.message ?? "") : "",
     droppedAt: wasDropped(flight) ? formatClock(flight.engagement?.t_s ?? 0) : "",
     alarm: seen.map ? alarmOf(flight) : null,
     leader: shown?.leader ?? null,

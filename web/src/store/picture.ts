@@ -316,7 +316,7 @@ function speedOf(flight: Moment, style: GuidanceStyle | null): Picture["speed"] 
   const wasCommanded = before !== null && commandsSpeed(before, plan);
   return {
     now: isCommanded ? "RG SPD" : "SPD",
-    next: isCommanded ? "" : style.speedNext,
+    next: isCommanded || isSelected ? "" : style.speedNext,
     isSelected,
     boxed: isSelected
       ? isRecent(flight, assignment?.t_s, NEWS)

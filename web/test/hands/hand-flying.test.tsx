@@ -232,6 +232,17 @@ test("the delay of the picture is measured from the key to the frame after the f
   expect(framesPerSecond).toBeGreaterThan(55);
 });
 
+test("a page that is drawn too seldom says so, and one that is not does not", async () => {
+  const page = await flying();
+  vi.advanceTimersByTime(5000);
+  expect(page.session.hands.value?.isSlow.value).toBe(false);
+  vi.stubGlobal("requestAnimationFrame", (draw: FrameRequestCallback) =>
+    setTimeout(() => draw(performance.now()), 3 * FRAME),
+  );
+  vi.advanceTimersByTime(5000);
+  expect(page.session.hands.value?.isSlow.value).toBe(true);
+});
+
 describe("neutral", () => {
   test.each([
     ["the window loses the focus", () => dispatchEvent(new Event("blur"))],

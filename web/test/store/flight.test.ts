@@ -401,9 +401,9 @@ describe("engagement", () => {
     const lapsed = sample(9, { ...state, engagement: "designated" });
     store.receive(tick(9, [changed(9, "armed", "designated"), lapsed]), 9000);
     expect(prompts()).toEqual(["PATH CHANGED – ACCEPT AGAIN"]);
-    expect(numbersOf(store.flight.moment.value).hasLapsed).toBe(true);
+    expect(numbersOf(store.flight.moment.value).lapsed).toBe("From armed to designated.");
     store.receive(tick(12, [changed(12, "designated", "armed")]), 12_000);
-    expect(numbersOf(store.flight.moment.value).hasLapsed).toBe(false);
+    expect(numbersOf(store.flight.moment.value).lapsed).toBe("");
   });
 
   test("what was accepted is sent, then accepted; what is refused is said so for ten seconds", () => {
