@@ -7,7 +7,7 @@ from relguide_server.flights.hands import LEVELLED, SILENCE, Hands
 
 from relguide.flying.documents import CommandGiven, ControlChanged, Document, PlanChanged, Sample
 from relguide.flying.flight import fly
-from relguide.flying.orders import Command, SetAutopilot, Stick
+from relguide.flying.orders import Command, SetAutopilot, SetDirector, Stick
 from relguide.flying.scenarios import scenario
 from relguide.planning.plan import plan
 from relguide.units import DEG
@@ -133,6 +133,26 @@ def test_who_gives_the_autopilot_the_controls_by_another_way_takes_them_from_the
     messages = [d.message for d in documents if isinstance(d, ControlChanged)]
     assert messages == ["You have control.", "The autopilot flies."]
     hands.let_go()
+    assert not hands.lost
+
+
+def test_a_director_that_is_switched_as_control_is_taken_does_not_take_it_back() -> None:
+    hands = Hands(lambda: 0.0)
+
+    def commands(t: float) -> Iterator[Command]:
+        if t == 1.0:
+            take(hands)
+            taken = list(hands.orders(t))
+            yield SetDirector(on=True, ident=PURSUER)  # of another way, before what hands ordered
+            yield from taken
+        else:
+            yield from hands.orders(t)
+
+    for document in fly(scenario("fig_6b"), plan, commands=commands):
+        hands.note(document)
+        if document.t > 3.0:
+            break
+    assert hands.flown == PURSUER
     assert not hands.lost
 
 

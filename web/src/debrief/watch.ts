@@ -4,8 +4,11 @@ import { effect, untracked } from "@preact/signals";
 import { lessonOf } from "../lessons/lessons";
 import type { Actions, Session } from "../session";
 
-export function openDebriefs(session: Session, actions: Pick<Actions, "pause">): void {
-  const { flight, status, recording, debriefOpen, sceneMaximised, lost } = session;
+export function openDebriefs(
+  session: Session,
+  actions: Pick<Actions, "pause" | "setAutopilot">,
+): void {
+  const { flight, status, recording, debriefOpen, sceneMaximised, lost, hands } = session;
   /** The flight that is flown by hand, and the one whose debrief was opened. */
   let flown: string | null = null;
   let opened: string | null = null;
@@ -26,7 +29,9 @@ export function openDebriefs(session: Session, actions: Pick<Actions, "pause">):
       debriefOpen.value = true;
       if (lessonOf(status.value?.scenario) === null) return;
       sceneMaximised.value = true;
-      if (!ended && !flight.clock.value.ended) actions.pause();
+      if (ended || flight.clock.value.ended) return;
+      if (hands.value !== null) actions.setAutopilot(true);
+      actions.pause();
     });
   });
 }
