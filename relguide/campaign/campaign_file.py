@@ -12,6 +12,11 @@ leader_tas_share = { uniform = [0.6, 0.98] }
 
 [sweep]                         # crossed: a row of the report each
 wind_error_mps = [0.0, 5.0, 10.0]
+
+[[crew]]                        # what each pursuer's crew does, a table an order, as in its script;
+on = "proposed"                 # guidance is engaged from the start if there is none
+after_s = 5.0
+engagement = "armed"
 """
 
 import tomllib
@@ -34,7 +39,9 @@ from relguide.campaign.distribution import (
 )
 from relguide.campaign.families import FAMILIES
 from relguide.campaign.keys import KEYS
+from relguide.contract.orders import crew_of
 from relguide.flying.guidances import Guidance, expect_guidance
+from relguide.flying.scripted_crew import CrewOrder
 from relguide.planning.inputs import Range, expect_whole, text
 from relguide.units import Second
 
@@ -120,6 +127,10 @@ class Campaign:
     after_joining: Second | None = None
     """The same of the time to follow."""
     guidance: Guidance = "relguide"
+    crew: tuple[CrewOrder, ...] = ()
+    """What each pursuer's crew does; without it guidance is engaged from the start."""
+    script: tuple[Mapping[str, Any], ...] = ()
+    """The same as the tables of the file."""
     vary: Mapping[str, Distribution]
     sweep: Mapping[str, tuple[float, ...]]
 
@@ -148,7 +159,8 @@ class Campaign:
         more = {"limit_s": self.limit, "after_joining_s": self.after_joining}
         if self.guidance != "relguide":
             about["guidance"] = self.guidance
-        return {
+        crew = {"crew": [dict(order) for order in self.script]} if self.script else {}
+        return crew | {
             "campaign": about | {key: value for key, value in more.items() if value is not None},
             "vary": {key: as_table(made) for key, made in self.vary.items()},
             "sweep": {key: list(values) for key, values in self.sweep.items()},
@@ -183,7 +195,7 @@ def read_campaign(content: Mapping[str, Any], *, name: str = "campaign") -> Camp
     Raises:
         ValueError: naming the key that is wrong, and what would be right.
     """
-    _refuse_unknown("", content, ("campaign", "vary", "sweep"))
+    _refuse_unknown("", content, ("campaign", "vary", "sweep", "crew"))
     about, vary, sweep = (_table(content, key) for key in ("campaign", "vary", "sweep"))
     _refuse_unknown("campaign.", about, HEADS)
     for key in ("flights", "family"):
@@ -201,6 +213,7 @@ def read_campaign(content: Mapping[str, Any], *, name: str = "campaign") -> Camp
             raise ValueError(f"{key} says nothing of recorded leaders: leave it out.")
     guidance = about.get("guidance", "relguide")
     expect_guidance(guidance)
+    script = _script(content)
     return Campaign(
         name=text("campaign.name", about.get("name", name)),
         seed=expect_whole("campaign.seed", about.get("seed", 0), 0),
@@ -209,9 +222,18 @@ def read_campaign(content: Mapping[str, Any], *, name: str = "campaign") -> Camp
         limit=_seconds(about, "limit_s", LONGEST),
         after_joining=_seconds(about, "after_joining_s", FOLLOWED),
         guidance=guidance,
+        crew=crew_of(script),
+        script=script,
         vary={key: read_distribution(f"vary.{key}", vary[key], KEYS[key].limits) for key in vary},
         sweep={key: _values(f"sweep.{key}", sweep[key], KEYS[key].limits) for key in sweep},
     )
+
+
+def _script(content: Mapping[str, Any]) -> tuple[Mapping[str, Any], ...]:
+    orders = content.get("crew", [])
+    if not isinstance(orders, list) or not all(isinstance(order, Mapping) for order in orders):
+        raise ValueError("crew must be a list of tables: write [[crew]] before each order.")
+    return tuple(orders)
 
 
 def _flights(given: object) -> int:

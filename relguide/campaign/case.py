@@ -7,6 +7,7 @@ from relguide.flying.flight import DeclaredLeader, Scenario, world_of
 from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.guidances import Guidance
 from relguide.flying.orders import Command
+from relguide.flying.scripted_crew import CrewOrder
 from relguide.flying.surveillance import EXACT
 from relguide.flying.world import World
 from relguide.planning.wind import CALM, Wind
@@ -24,6 +25,8 @@ class Case:
     """Of gusts and of what reports have wrong."""
     orders: tuple[tuple[Second, Command], ...] = ()
     """Commands to the leader, each at its time, in order."""
+    crew: tuple[CrewOrder, ...] = ()
+    """What the pursuer's crew does; without it guidance is engaged from the start."""
     factors: Mapping[str, float] = field(default_factory=dict)
     """What the pursuer's constants really are, as multiples of what guidance believes."""
     wind_error: Wind = CALM
@@ -69,6 +72,7 @@ class Case:
             f"leader = {scenario.leader_ident!r}",
             *(f"at {t:.0f} s: {command!r}" for t, command in self.orders),
         ]
+        lines += [f"crew: {order!r}" for order in self.crew]
         if self.guidance != "relguide":
             lines.append(f"guidance = {self.guidance!r}")
         if scenario.by_hand is not None:

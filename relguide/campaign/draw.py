@@ -47,6 +47,7 @@ def draw_flight(campaign: Campaign, flight: int) -> DrawnFlight:
         scenario=scenario,
         noise_seed=noise,
         guidance=campaign.guidance,
+        crew=campaign.crew,
     )
     drawn = {**kind.vary, **campaign.vary}
     values: dict[str, float] = {}

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from math import hypot
 from time import thread_time
 
@@ -37,6 +38,7 @@ from relguide.flying.documents import (
     Unable,
 )
 from relguide.flying.orders import Command
+from relguide.flying.scripted_crew import begun, with_crew
 from relguide.flying.simulation import simulate
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.plan import plan
@@ -59,18 +61,21 @@ def fly_case(case: Case) -> Row:
 def documents_of(case: Case, sample_period: Second = EVERY) -> Iterator[Document]:
     """What the flight of a case says, in order of time."""
     scenario = case.scenario
-    return simulate(
+    engagement, script = begun(case.crew) if case.crew else ("engaged", ())
+    flown = partial(
+        simulate,
         case.world(),
         plan,
         scenario=scenario.name,
         title=scenario.title,
-        commands=_orders(case.orders),
         sample_period=sample_period,
         seed=case.noise_seed,
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
+        engagement=engagement,
         guidance=case.guidance,
     )
+    return with_crew(script, flown, _orders(case.orders))
 
 
 def failed_row(family: str, number: int, error: BaseException) -> Row:
@@ -95,10 +100,12 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     optimum = end.optimum if end.optimum and case.leader_as_declared else None
     samples = [instant(document) for document in documents if isinstance(document, Sample)]
     changed = [document for document in documents if isinstance(document, PlanChanged)]
-    engaged = changed[0] if end.planned_time > 0.0 else None
-    planned = end.planned_time if engaged else None
-    promised = end.promised if engaged else None
+    by_crew = bool(case.crew) and bool(changed)
+    engaged = changed[0] if end.planned_time > 0.0 or by_crew else None
+    planned = engaged.plan.time_to_converge if engaged else None
+    promised = engaged.promised if engaged else None
     joined = end.join_time if end.joined else None
+    since = joined - engaged.t if engaged and joined else None
     warnings = tuple(warnings_of(documents))
     losses = tuple(losses_of(situation.min_separation, samples, end, warnings))
     paths = [(document.t, document.plan.segments) for document in changed]
@@ -118,8 +125,8 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         join_s=joined,
         planned_s=planned,
         promised_s=promised,
-        join_over_plan=joined / planned if joined and planned else None,
-        join_over_promise=joined / promised if joined and promised else None,
+        join_over_plan=since / planned if since and planned else None,
+        join_over_promise=since / promised if since and promised else None,
         optimum_s=optimum,
         over_optimum_s=_over_optimum(case, optimum, joined),
         why_not_joined="" if end.joined else _why_not(documents),

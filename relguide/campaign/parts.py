@@ -121,10 +121,12 @@ def _difference(found: Manifest, campaign: Campaign) -> str:
     theirs, ours = found.campaign.as_tables(), campaign.as_tables()
     names = [
         f"{table}.{key}"
-        for table in ours
+        for table in ("campaign", "vary", "sweep")
         for key in {**theirs[table], **ours[table]}
         if theirs[table].get(key) != ours[table].get(key)
     ]
+    if theirs.get("crew") != ours.get("crew"):
+        names.append("crew")
     return ", ".join(names)
 
 

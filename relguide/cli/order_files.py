@@ -31,8 +31,9 @@ def read_ordered(flown: str, orders: str | None, crew: str | None, seed: int | N
     Raises:
         ValueError: naming the first line that is no order, and what would be right.
     """
-    from relguide.contract.orders import begun, flown_again, read_crew, read_orders
+    from relguide.contract.orders import flown_again, read_crew, read_orders
     from relguide.contract.recorder import is_recording, replay
+    from relguide.flying.scripted_crew import begun
 
     _expect_one_standard_input({"situation": flown, "orders": orders, "crew": crew})
     ordered = Ordered((), (), "engaged", seed or 0)

@@ -12,8 +12,8 @@ A crew's script has the orders of crews only, and they may wait for what is said
 A recording holds all orders that were given in its flight, which is flown again by them.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import IO, NamedTuple, TypeVar
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import IO, Any, NamedTuple, TypeVar
 
 from pydantic import BaseModel, RootModel
 
@@ -28,7 +28,7 @@ from relguide.flying.documents import (
     Sample,
 )
 from relguide.flying.engagement import Engagement
-from relguide.flying.orders import Command, SetEngagement, order_fault
+from relguide.flying.orders import Command, order_fault
 from relguide.flying.scripted_crew import CrewOrder
 from relguide.flying.world import World
 from relguide.units import Second
@@ -120,15 +120,19 @@ def crew_order(line: CrewLine) -> CrewOrder:
     return CrewOrder(command=line.command(), on=line.on, after=line.after_s)
 
 
-def begun(script: Sequence[CrewOrder]) -> tuple[Engagement, tuple[CrewOrder, ...]]:
-    """How far guidance is engaged as a crew begins, and what is left of its script.
+def crew_of(script: Sequence[Mapping[str, Any]]) -> tuple[CrewOrder, ...]:
+    """A crew's script from its orders as objects.
 
-    Off, unless the first line is an engagement at 0 s: that says how the flight begins.
+    Raises:
+        ValueError: naming the first that is no order of a crew, and what would be right.
     """
-    match script:
-        case [CrewOrder(command=SetEngagement() as first, on="start", after=0.0), *rest]:
-            return first.engagement, tuple(rest)
-    return "off", tuple(script)
+    orders = list[CrewOrder]()
+    for number, order in enumerate(script, start=1):
+        try:
+            orders.append(crew_order(parse(CrewOrderBody, dict(order)).root))
+        except ContractError as error:
+            raise ValueError(f"crew, order {number}: {error}") from None
+    return tuple(orders)
 
 
 def flown_again(documents: Iterable[Document]) -> FlownAgain:

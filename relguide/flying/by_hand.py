@@ -25,6 +25,8 @@ Order = SetAutopilot | SetDirector | Stick
 def obey_hands(one: Pursuit, order: Order, fleet: Fleet, t: Second) -> Iterator[Document]:
     """Move the stick, take control or give it back, switch the bars; and say what became of it."""
     match order:
+        case Stick() if fleet.has_pilot(one.pursuer) and not one.autopilot:
+            yield _said(one, t, "A modelled pilot flies: it alone moves the stick.")
         case Stick(roll=roll, pitch=pitch):
             if not one.autopilot:
                 fleet.move_stick(one.pursuer, roll, pitch)
@@ -40,6 +42,8 @@ def obey_hands(one: Pursuit, order: Order, fleet: Fleet, t: Second) -> Iterator[
                 else:
                     fleet.take_stick(one.pursuer)
             yield _said(one, t, why or ("The autopilot flies." if on else "You have control."))
+        case SetDirector(on=False) if fleet.has_pilot(one.pursuer):
+            yield _said(one, t, "A modelled pilot flies along the bars: they stay on.")
         case SetDirector(on=on):
             one.director = on
             yield _said(one, t, f"The flight director is {'on' if on else 'off'}.")

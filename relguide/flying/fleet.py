@@ -259,6 +259,10 @@ class Fleet:
         """Deflect a stick: it stays there. −1 … 1, to the right and pulled positive."""
         self.hands[i, by_hand.STICK], self.pitches[i] = roll, pitch
 
+    def has_pilot(self, i: int) -> bool:
+        """Whether a modelled pilot flies an aircraft while its autopilot does not."""
+        return i in self.pilot_rngs
+
     def is_by_hand(self, i: int) -> bool:
         """Whether a crew flies an aircraft."""
         return bool(self.pilots[i] in (BY_STICK, BY_BAR))

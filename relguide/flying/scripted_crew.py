@@ -164,6 +164,17 @@ class ScriptedCrew:
         return command.ident or self._first
 
 
+def begun(script: Sequence[CrewOrder]) -> tuple[Engagement, tuple[CrewOrder, ...]]:
+    """How far guidance is engaged as a crew begins, and what is left of its script.
+
+    Off, unless the first line is an engagement at 0 s: that says how the flight begins.
+    """
+    match script:
+        case [CrewOrder(command=SetEngagement() as first, on="start", after=0.0), *rest]:
+            return first.engagement, tuple(rest)
+    return "off", tuple(script)
+
+
 def with_crew(
     script: Sequence[CrewOrder],
     flown: Callable[..., Iterator[Document]],

@@ -11,7 +11,7 @@ from relguide.contract.messages import (
     ScenarioFlightRequest,
     SituationFlightRequest,
 )
-from relguide.contract.orders import Order, begun, crew_order, fault_in, order_of
+from relguide.contract.orders import Order, crew_order, fault_in, order_of
 from relguide.contract.pilot_bodies import pilot_of
 from relguide.contract.places import UNANCHORED, Anchor
 from relguide.contract.refusal import ContractError
@@ -19,7 +19,7 @@ from relguide.flying.engagement import Engagement
 from relguide.flying.flight import Scenario, world_of
 from relguide.flying.orders import Command
 from relguide.flying.scenarios import scenario
-from relguide.flying.scripted_crew import CrewOrder
+from relguide.flying.scripted_crew import CrewOrder, begun
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.intent import IntentPiece
 from relguide.planning.situation import Situation

@@ -1,6 +1,7 @@
 """A campaign's file says all, and what is wrong with it is said by name."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,8 @@ from relguide.campaign.distribution import Choice, Fixed, Normal, Uniform
 from relguide.campaign.draw import draw_flight
 from relguide.campaign.keys import KEYS
 from relguide.campaign.row import Row
+from relguide.flying.orders import SetEngagement
+from relguide.flying.scripted_crew import CrewOrder
 
 HEAD: dict[str, Any] = {"flights": 3, "family": "declared"}
 UNITS = ("_m", "_mps", "_deg", "_s", "_k", "_kg", "_share", "_factor", "_radps")
@@ -116,3 +119,36 @@ def test_a_key_is_no_figure_and_names_its_unit() -> None:
     assert not set(KEYS) & set(Row.__dataclass_fields__)
     for name in KEYS:
         assert name in ("nacp", "nacv") or name.endswith(UNITS)
+
+
+CREW = [
+    {"t_s": 0.0, "engagement": "designated"},
+    {"on": "proposed", "after_s": 5.0, "engagement": "armed"},
+    {"on": "armed", "after_s": 10.0, "engagement": "engaged"},
+]
+
+
+def test_a_crew_is_read_as_its_script_and_written_back() -> None:
+    about = {"flights": 3, "family": "declared"}
+    campaign = read_campaign({"campaign": about, "crew": CREW})
+    assert campaign.crew == (
+        CrewOrder(command=SetEngagement(engagement="designated")),
+        CrewOrder(command=SetEngagement(engagement="armed"), on="proposed", after=5.0),
+        CrewOrder(command=SetEngagement(engagement="engaged"), on="armed", after=10.0),
+    )
+    assert read_campaign(campaign.as_tables()) == replace(campaign, script=tuple(CREW))
+    assert "crew" not in read_campaign({"campaign": about}).as_tables()
+
+
+@pytest.mark.parametrize(
+    ("crew", "said"),
+    [
+        ([{"engagement": "armed"}], "crew, order 1: "),
+        ([CREW[0], {"t_s": 1.0, "leader_tas_mps": 200.0}], "crew, order 2: "),
+        ({"t_s": 0.0}, "crew must be a list of tables"),
+        ([3], "crew must be a list of tables"),
+    ],
+)
+def test_what_is_no_script_is_refused(crew: object, said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        read_campaign({"campaign": {"flights": 3, "family": "declared"}, "crew": crew})

@@ -9,8 +9,10 @@ from relguide.campaign.judge import fly_case, row_of
 from relguide.flying.documents import Alert, FlightEnded, ForecastChanged, Sample, Unable
 from relguide.flying.flight import fly
 from relguide.flying.guidance.settings import DEFAULT
+from relguide.flying.orders import SetEngagement
 from relguide.flying.pilot_model import PilotModel
 from relguide.flying.plan_documents import PathPoint
+from relguide.flying.scripted_crew import CrewOrder
 from relguide.planning.plan import plan
 from relguide.planning.wind import Wind
 from tests.plans import find_plan
@@ -178,3 +180,19 @@ def test_the_perfect_pilot_has_nothing_on_the_autopilot() -> None:
     assert row.late_share == 0.0
     assert row.off_autopilot_m == pytest.approx(0.0, abs=5.0)
     assert row.nearer_share == pytest.approx(0.0, abs=1e-3)
+
+
+@pytest.mark.slow
+def test_a_crew_engages_and_its_times_count_from_there() -> None:
+    engaged = fly_case(draw("declared", 4))
+    crew = (
+        CrewOrder(command=SetEngagement(engagement="designated")),
+        CrewOrder(command=SetEngagement(engagement="armed"), on="proposed", after=5.0),
+        CrewOrder(command=SetEngagement(engagement="engaged"), on="armed", after=10.0),
+    )
+    row = fly_case(replace(draw("declared", 4), crew=crew))
+    assert row.joined
+    assert row.planned
+    assert engaged.join_over_plan is not None
+    assert row.join_over_plan == pytest.approx(engaged.join_over_plan, abs=0.05)
+    assert fly_case(replace(draw("declared", 4), crew=crew[:1])).joined is False

@@ -28,6 +28,7 @@ from relguide.flying.orders import (
     SetEngagement,
     Stick,
 )
+from relguide.flying.pilot_model import PilotModel
 from relguide.flying.scenarios import own_scenario, scenario
 from relguide.kernels.base.turn import bank_for_turn_rate
 from relguide.kernels.flight.by_hand import BAR_TIME, HAND_BANK
@@ -255,3 +256,15 @@ def test_a_loss_by_hand_is_told_at_its_step_and_was_announced() -> None:
     }
     assert apart[round(loss.t, 2)] < 5.0 * NM <= apart[round(loss.t - STEP, 2)]
     assert loss.announced
+
+
+def test_a_modelled_pilot_keeps_its_stick_and_its_bars() -> None:
+    flight = replace(scenario("fig_6b"), by_hand=PilotModel())
+    script = ((5.0, Stick(roll=1.0)), (6.0, SetDirector(on=False)))
+    documents = flown(script, 20.0, flight=flight)
+    assert banks(documents) == banks(flown((), 20.0, flight=flight))
+    assert said(documents) == [
+        "A modelled pilot flies: it alone moves the stick.",
+        "A modelled pilot flies along the bars: they stay on.",
+    ]
+    assert samples(documents)[-1].guidance[0].bars
