@@ -122,6 +122,20 @@ describe("control", () => {
     expect(page.sent.at(-1)).toEqual({ kind: "take_control", director: false });
   });
 
+  test("is taken as a lesson says, with no word of its own, until the next flight", async () => {
+    const page = opened();
+    page.crew.setAutopilot(false, false);
+    page.crew.setAutopilot(false);
+    await vi.advanceTimersByTimeAsync(0);
+    const raw = { kind: "take_control", director: false };
+    expect(page.sent).toEqual([raw, raw]);
+    expect(page.commands).toEqual([]);
+    page.session.flight.id.value = "two";
+    page.crew.setAutopilot(false);
+    await vi.advanceTimersByTimeAsync(0);
+    expect(page.sent.at(-1)).toEqual({ kind: "take_control", director: true });
+  });
+
   test("that is refused or lost is said, and nothing is flown by hand", async () => {
     const page = opened();
     page.crew.setAutopilot(false);
