@@ -37,8 +37,10 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
   function answered({ yours, message }: ControlAnswer, link: Stream): void {
     const wasAsked = asked;
     asked = null;
-    if (yours) hands.value ??= flyByHand(session, link.send);
-    else endFlying();
+    if (yours && hands.value === null) {
+      hands.value = flyByHand(session, link.send);
+      session.debriefOpen.value = session.sceneMaximised.value = false; // the instrument needs the room
+    } else if (!yours) endFlying();
     const isWanted = wasAsked === (yours ? "take" : "give");
     say(isWanted ? "done" : "refused", inPageUnits(message));
   }

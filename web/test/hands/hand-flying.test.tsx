@@ -108,7 +108,9 @@ describe("control", () => {
     await vi.advanceTimersByTimeAsync(0);
     expect(page.sent).toEqual([{ kind: "take_control", director: true }]);
     expect(page.session.hands.value).toBeNull();
+    page.session.debriefOpen.value = true;
     page.answer(true, "You have control.");
+    expect(page.session.debriefOpen.value).toBe(false);
     expect(page.session.hands.value).not.toBeNull();
     expect(page.session.feedback.value).toEqual({ kind: "done", text: "You have control." });
     page.crew.setAutopilot(true);
