@@ -284,7 +284,7 @@ export function createActions(
     if (answer.kind === "done") {
       show(answer.value);
       flies();
-      const hint = wanted.paused === true ? " It waits: accept what is proposed, or play." : "";
+      const hint = wanted.paused === true ? " It waits for you." : "";
       say("done", `New flight: ${answer.value.title}.${hint}`);
     } else if (answer.retryAfter !== undefined) {
       session.outage.value = null;
@@ -435,7 +435,7 @@ export function createActions(
       const body = { command: "pursuer_heading", heading_deg: wrap360(heading) } as const;
       void command(body, `${text}…`, `${text}.`);
     },
-    setAutopilot: (on) => byCrew((crew) => crew.setAutopilot(on)),
+    setAutopilot: (on, director) => byCrew((crew) => crew.setAutopilot(on, director)),
     setDirector: (on) => byCrew((crew) => crew.setDirector(on)),
     selectBank: (bank) => byCrew((crew) => crew.selectBank(bank)),
     selectSpeed: (tas) => byCrew((crew) => crew.selectSpeed(tas)),

@@ -109,8 +109,11 @@ export interface Actions {
   engage(engagement: Engagement): void;
   /** Selects a heading for own ship [deg], while guidance is not engaged. */
   ownHeading(heading: number): void;
-  /** Gives own ship to the autopilot, or takes control from it: this page then flies by hand. */
-  setAutopilot(on: boolean): void;
+  /**
+   * Gives own ship to the autopilot, or takes control from it: this page then flies by hand, with the
+   * bars or without; if that is left out, as they were switched in this flight.
+   */
+  setAutopilot(on: boolean, director?: boolean): void;
   /** Switches the flight director's bars. */
   setDirector(on: boolean): void;
   /** Selects the bank that plans turn with [deg]. */

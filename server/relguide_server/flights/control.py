@@ -14,6 +14,7 @@ MOST_RATE = 5.0
 TOO_FAST = f"By hand a flight is flown at a rate of {MOST_RATE:g} at most, not {{rate:g}}."
 OVER = "This flight has ended."
 RECORDING = "This is a recording: it cannot be flown by hand."
+MODELLED = "A modelled pilot flies by hand in this flight: it alone moves the stick."
 HELD = "Another client has control of this flight: it has to give it back first."
 STILL_FLOWN = "{ident} is still flown by hand: give it back, and try again in a second."
 NOT_HELD = "You do not have control: take it first."
@@ -29,6 +30,7 @@ class Standing:
     started: FlightStarted
     over: bool
     replay: bool
+    modelled: bool
     rate: float
     may_command: bool
     """Whether the client may command the flight at all."""
@@ -39,6 +41,8 @@ class Standing:
             return f"{OVER} Start another one to fly it by hand."
         if self.replay:
             return RECORDING
+        if self.modelled:
+            return MODELLED
         if not self.may_command:
             return NOT_YOURS
         if self.rate > MOST_RATE:

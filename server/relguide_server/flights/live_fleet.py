@@ -84,6 +84,7 @@ class LiveFleet:
         paused: bool,
         record: Callable[[str], Recorder],
         replay: bool = False,
+        modelled: bool = False,
         owner: str = "",
         anchor: Anchor = UNANCHORED,
         seed: int = 0,
@@ -98,6 +99,7 @@ class LiveFleet:
             paused: whether it waits for `play`.
             record: what records it, given its id.
             replay: whether it is a recording.
+            modelled: whether a modelled pilot flies it by hand.
             owner: who starts it, and may command it.
             anchor: how its world lies on the earth.
             seed: of its random numbers.
@@ -111,6 +113,7 @@ class LiveFleet:
             scenario=scenario,
             title=title,
             replay=replay,
+            modelled=modelled,
             owner=owner,
             anchor=anchor,
             seed=seed,

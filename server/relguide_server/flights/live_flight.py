@@ -45,6 +45,8 @@ class FlightLabel:
     title: str
     replay: bool = False
     """Whether it is a recording, which takes no orders."""
+    modelled: bool = False
+    """Whether a modelled pilot flies while the autopilot does not: no client then moves a stick."""
     anchor: Anchor = UNANCHORED
     """How its world lies on the earth."""
     owner: str = ""
@@ -203,6 +205,7 @@ class LiveFlight:
                 started=started,
                 over=self.over,
                 replay=self.label.replay,
+                modelled=self.label.modelled,
                 rate=self.pace.rate,
                 may_command=may_command,
             )

@@ -30,6 +30,7 @@ from relguide.contract.commands import (
 )
 from relguide.contract.compass import heading_of
 from relguide.contract.messages import FlightList, FlightRequest, FlightStatus, ScenarioList
+from relguide.contract.pilot_bodies import pilot_of
 from relguide.contract.protocol import PROTOCOL, STREAM
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.aircraft_documents import GuidanceSample, find_by_ident
@@ -52,7 +53,7 @@ from relguide.flying.orders import (
     order_fault,
 )
 from relguide_server.flights.catalogue import CatalogueOf
-from relguide_server.flights.control import HELD, MOST_RATE, TOO_FAST
+from relguide_server.flights.control import HELD, MODELLED, MOST_RATE, TOO_FAST
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
@@ -156,6 +157,7 @@ async def start_flight(
         rate=wanted.rate,
         paused=wanted.paused,
         record=record,
+        modelled=pilot_of(wanted.by_hand) is not None,
         owner=owner_of(request),
         anchor=departure.anchor,
         seed=wanted.seed,
@@ -391,6 +393,8 @@ def _order_autopilot(flight: LiveFlight, order: SetAutopilot) -> None:
 
 def _move_stick(flight: LiveFlight, order: Stick) -> None:
     _expect_flying(flight, order)
+    if flight.label.modelled:
+        raise Refusal(409, MODELLED)
     if flight.control.taken:
         raise Refusal(409, HELD)
     if _guidance(flight, order.ident).autopilot:

@@ -15,6 +15,7 @@ from relguide_server.flights.control import (
     GIVEN_BACK,
     HELD,
     LOST,
+    MODELLED,
     MOST_RATE,
     NOT_HELD,
     OVER,
@@ -356,9 +357,23 @@ def test_the_end_of_a_flight_is_the_end_of_control() -> None:
 def test_a_recording_is_not_flown_by_hand() -> None:
     started = next(document for document in fig_6b(lambda t: ()))
     assert isinstance(started, FlightStarted)
-    standing = Standing(started=started, over=False, replay=True, rate=1.0, may_command=True)
+    standing = Standing(
+        started=started, over=False, replay=True, modelled=False, rate=1.0, may_command=True
+    )
     assert standing.refusal("PURSUER") == RECORDING
     assert replace(standing, replay=False).refusal("PURSUER") == ""
+
+
+def test_what_a_modelled_pilot_flies_no_client_flies(address: str) -> None:
+    async def scene(flight_id: str) -> None:
+        async with Dial(address, flight_id) as crew:
+            assert await crew.ask(**TAKE) == (False, MODELLED)
+
+    flight_id = start(address, by_hand={"delay_s": 0.4})
+    asyncio.run(scene(flight_id))
+    commands = f"http://{address}/api/v1/flights/{flight_id}/commands"
+    answer = httpx.post(commands, json={"command": "stick", "roll": 0.5})
+    assert (answer.status_code, answer.json()["detail"]) == (409, MODELLED)
 
 
 @pytest.mark.parametrize("shown", ["token", "cookie"])

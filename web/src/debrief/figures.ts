@@ -94,7 +94,7 @@ function closest(history: History, { seconds: all }: Flown): Figure {
   return {
     label: "Least separation",
     value: least === null ? "–" : `${formatMiles(least.d, 2)} NM`,
-    note: least === null ? "" : `at ${formatClock(least.t)}, minimum ${formatMiles(min, 2)}`,
+    note: least === null ? "" : `at ${formatClock(least.t)}, MIN ${formatMiles(min, 2)} NM`,
     tone: least !== null && least.d < min - GRAZE ? "alert" : "plain",
   };
 }

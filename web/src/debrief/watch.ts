@@ -23,11 +23,13 @@ export function openDebriefs(
     if (now.autopilot === false) flown = id;
     const isOff = engagement?.engagement === "off";
     const isOver = ended || flight.clock.value.ended || now.joined || isOff;
-    if (flown !== id || !isOver) return;
+    const isLesson = lessonOf(status.value?.scenario) !== null;
+    // whoever still flies needs the instrument more; a lesson is over, and gives control back
+    if (flown !== id || !isOver || (hands.value !== null && !isLesson)) return;
     opened = id;
     untracked(() => {
       debriefOpen.value = true;
-      if (lessonOf(status.value?.scenario) === null) return;
+      if (!isLesson) return;
       sceneMaximised.value = true;
       if (ended || flight.clock.value.ended) return;
       if (hands.value !== null) actions.setAutopilot(true);

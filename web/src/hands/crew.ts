@@ -29,7 +29,7 @@ export interface Means {
 
 export function createCrew({ session, command, say, refusal, stream }: Means): Crew {
   const { hands, flight } = session;
-  /** Whether the bars are wanted when control is taken. */
+  /** Whether the bars are wanted when control is taken: in each flight, until they are switched off. */
   let withDirector = true;
   /** What the page has asked for and has not been answered yet. */
   let asked: "take" | "give" | null = null;
@@ -37,8 +37,10 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
   function answered({ yours, message }: ControlAnswer, link: Stream): void {
     const wasAsked = asked;
     asked = null;
-    if (yours) hands.value ??= flyByHand(session, link.send);
-    else endFlying();
+    if (yours && hands.value === null) {
+      hands.value = flyByHand(session, link.send);
+      session.debriefOpen.value = session.sceneMaximised.value = false; // the instrument needs the room
+    } else if (!yours) endFlying();
     const isWanted = wasAsked === (yours ? "take" : "give");
     say(isWanted ? "done" : "refused", inPageUnits(message));
   }
@@ -79,6 +81,10 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
     say("sending", "Giving control back…");
   }
 
+  effect(() => {
+    void flight.id.value;
+    withDirector = true;
+  });
   // Control ends with its link, and with its flight.
   effect(() => {
     if (flight.connection.value !== "lost" || hands.peek() === null) return;
@@ -91,7 +97,11 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
   });
 
   return {
-    setAutopilot: (on) => (on ? giveBack() : void take()),
+    setAutopilot(on, director = withDirector) {
+      withDirector = director;
+      if (on) giveBack();
+      else void take();
+    },
     setDirector(on) {
       withDirector = on;
       const text = `Flight director ${on ? "on" : "off"}`;

@@ -117,7 +117,7 @@ function Measured({ measure }: { measure: Measure }) {
   const delay =
     half === null || most === null
       ? ""
-      : `, ${Math.round(half)} ms to the picture (95 %: ${Math.round(most)} ms)`;
+      : `, ${Math.round(half)} ms to the picture (95 %: ${Math.round(most)}\xa0ms)`;
   return (
     <p
       class="hint stick-measure"

@@ -78,8 +78,7 @@ function Begin(props: Props & { lesson: Lesson; isFirst: boolean }) {
       disabled={!isReady}
       onClick={() => {
         button.current?.blur(); // the keys are the stick's from now on
-        actions.setDirector(lesson.director);
-        actions.setAutopilot(false);
+        actions.setAutopilot(false, lesson.director);
         actions.play();
       }}
     >

@@ -68,7 +68,7 @@ export const LESSONS: readonly Lesson[] = [
   {
     scenario: "lesson_bar",
     title: "Follow the bar",
-    card: "You fly; the upright bar of the flight director says how. It stands right of the middle: roll right, until it is back in the middle. Hold ← or → to roll; let go, and the bank stays. Speed and level are kept for you.",
+    card: "You fly; the upright bar of the flight director says how. It stands right of the middle: roll right, until it is back in the middle. Hold ← or →, or drag the stick, to roll; let go, and the bank stays. Speed and level are kept for you.",
     director: true,
     steps: [
       TAKE,

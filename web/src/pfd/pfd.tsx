@@ -1,7 +1,7 @@
 /** The primary flight display: attitude, bars, speed, level, heading, and how far apart the two are. */
 
 import { useComputed, useSignal } from "@preact/signals";
-import { useEffect, useMemo } from "preact/hooks";
+import { useEffect, useMemo, useRef } from "preact/hooks";
 import { usePart } from "../nd/layer";
 import { ink } from "../nd/style";
 import { Panel, set } from "../parts";
@@ -23,10 +23,17 @@ import "./pfd.css";
 
 /** The bars flash for so long after guidance has given up what it commanded [s]. */
 const FLASHING = 9;
+const SMALL = "(max-width: 999px)";
 
 export function PrimaryFlightDisplay({ session }: { session: Session }) {
   const gauge = useMemo(() => createGauge(session), [session]);
   useEffect(() => gauge.run(), [gauge]);
+  const face = useRef<HTMLDivElement>(null);
+  const isFlown = session.hands.value !== null;
+  useEffect(() => {
+    // on a small screen the stick hides what is below
+    if (isFlown && matchMedia(SMALL).matches) face.current?.scrollIntoView();
+  }, [isFlown]);
   const isShown = usePart(session.shown, ({ guided }) => guided !== null);
   const label = useComputed(() => {
     const { value: attitude } = gauge.read;
@@ -54,7 +61,7 @@ export function PrimaryFlightDisplay({ session }: { session: Session }) {
         </>
       }
     >
-      <div class="pfd" role="img" aria-label={label}>
+      <div ref={face} class="pfd" role="img" aria-label={label}>
         {isShown.value ? <Face session={session} gauge={gauge} /> : <NoData />}
       </div>
       <BarSpeaker session={session} />

@@ -23,7 +23,10 @@ export function createMoves(session: Session, store: Pick<FlightStore, "seek" | 
 
   const moves: Moves = {
     seek: (t) => moveTo(t, 0),
-    step: (seconds) => moveTo(flight.moment.value.t + flight.since.value + seconds, 0),
+    step(seconds) {
+      if (seconds > 0 && flight.source.value.kind === "live") return; // nothing is newer
+      moveTo(flight.moment.value.t + flight.since.value + seconds, 0);
+    },
     toMark(way) {
       const outline = outlineOf(session.history());
       if (outline === null) return;

@@ -108,7 +108,9 @@ describe("control", () => {
     await vi.advanceTimersByTimeAsync(0);
     expect(page.sent).toEqual([{ kind: "take_control", director: true }]);
     expect(page.session.hands.value).toBeNull();
+    page.session.debriefOpen.value = true;
     page.answer(true, "You have control.");
+    expect(page.session.debriefOpen.value).toBe(false);
     expect(page.session.hands.value).not.toBeNull();
     expect(page.session.feedback.value).toEqual({ kind: "done", text: "You have control." });
     page.crew.setAutopilot(true);
@@ -120,6 +122,20 @@ describe("control", () => {
     page.crew.setAutopilot(false);
     await vi.advanceTimersByTimeAsync(0);
     expect(page.sent.at(-1)).toEqual({ kind: "take_control", director: false });
+  });
+
+  test("is taken as a lesson says, with no word of its own, until the next flight", async () => {
+    const page = opened();
+    page.crew.setAutopilot(false, false);
+    page.crew.setAutopilot(false);
+    await vi.advanceTimersByTimeAsync(0);
+    const raw = { kind: "take_control", director: false };
+    expect(page.sent).toEqual([raw, raw]);
+    expect(page.commands).toEqual([]);
+    page.session.flight.id.value = "two";
+    page.crew.setAutopilot(false);
+    await vi.advanceTimersByTimeAsync(0);
+    expect(page.sent.at(-1)).toEqual({ kind: "take_control", director: true });
   });
 
   test("that is refused or lost is said, and nothing is flown by hand", async () => {

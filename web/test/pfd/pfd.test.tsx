@@ -2,7 +2,7 @@
 
 import { render } from "preact";
 import { act } from "preact/test-utils";
-import { afterEach, describe, expect, test } from "vitest";
+import { afterEach, describe, expect, test, vi } from "vitest";
 import { PrimaryFlightDisplay } from "../../src/pfd/pfd";
 import { createSession, type Session } from "../../src/session";
 import type { PairSample } from "../../src/store/pair";
@@ -46,6 +46,28 @@ function sheet(name: string): HTMLElement | null {
 function words(): string {
   return [...place.querySelectorAll("text")].map((each) => each.textContent).join("|");
 }
+
+test("on a small screen it comes into sight as this page begins to fly, and on others stays", async () => {
+  const seen: Element[] = [];
+  vi.spyOn(Element.prototype, "scrollIntoView").mockImplementation(function (this: Element) {
+    seen.push(this);
+  });
+  for (const [matches, most] of [
+    [false, 0],
+    [true, 1],
+  ] as const) {
+    vi.stubGlobal("matchMedia", () => ({ matches }));
+    const { session } = await show(BY_HAND);
+    expect(seen).toEqual([]);
+    await act(() => {
+      session.hands.value = {} as NonNullable<Session["hands"]["value"]>;
+    });
+    expect(seen).toHaveLength(most);
+    render(null, place);
+  }
+  vi.restoreAllMocks();
+  vi.unstubAllGlobals();
+});
 
 describe("a left turn by hand, the bars off the middle", () => {
   test("the sphere turns against the bank, the bars stand where they ask own ship to go", async () => {
