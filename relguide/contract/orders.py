@@ -31,6 +31,7 @@ from relguide.flying.engagement import Engagement
 from relguide.flying.orders import Command, order_fault
 from relguide.flying.scripted_crew import CrewOrder
 from relguide.flying.world import World
+from relguide.planning.inputs import expect
 from relguide.units import Second
 
 MAX_LINE = 10_000
@@ -126,10 +127,12 @@ def crew_of(script: Sequence[Mapping[str, Any]]) -> tuple[CrewOrder, ...]:
     Raises:
         ValueError: naming the first that is no order of a crew, and what would be right.
     """
+    expect("crew", script, list, tuple)
     orders = list[CrewOrder]()
     for number, order in enumerate(script, start=1):
         try:
-            orders.append(crew_order(parse(CrewOrderBody, dict(order)).root))
+            read = dict(order) if isinstance(order, Mapping) else None
+            orders.append(crew_order(parse(CrewOrderBody, read).root))
         except ContractError as error:
             raise ValueError(f"crew, order {number}: {error}") from None
     return tuple(orders)

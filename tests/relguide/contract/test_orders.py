@@ -20,6 +20,7 @@ from relguide.contract.orders import (
     Order,
     begun,
     commands_of,
+    crew_of,
     expect_flying,
     flown_again,
     read_crew,
@@ -274,3 +275,17 @@ def test_a_recording_says_how_its_flight_began_and_orders_are_none(tmp_path: Pat
     for other in (ORDERS, b"", b"\xff", b"[]"):
         file.write_bytes(other)
         assert not is_recording(file)
+
+
+@pytest.mark.parametrize(
+    ("script", "said"),
+    [
+        (7, "crew must be a list or a tuple, not 7"),
+        ({"on": "armed"}, "crew must be a list or a tuple, not "),
+        ([{"on": "armed", "autopilot": False}, 7], "crew, order 2: This must be an object"),
+        (["{}"], "crew, order 1: This must be an object"),
+    ],
+)
+def test_what_is_no_script_of_a_crew_is_refused_in_a_sentence(script: Any, said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        crew_of(script)
