@@ -18,7 +18,6 @@ from relguide.contract.orders import (
     MAX_LINE,
     FlownAgain,
     Order,
-    begun,
     commands_of,
     crew_of,
     expect_flying,
@@ -46,7 +45,7 @@ from relguide.flying.orders import (
     Stick,
 )
 from relguide.flying.scenarios import fig_6
-from relguide.flying.scripted_crew import CrewOrder
+from relguide.flying.scripted_crew import CrewOrder, begun
 from relguide.planning.plan import plan
 from tests.documents import orders
 
