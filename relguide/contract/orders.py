@@ -61,6 +61,8 @@ class FlownAgain(NamedTuple):
     engagement: Engagement
     """How far guidance was engaged at the start."""
     seed: int
+    scenario: str
+    """The name of what was flown."""
 
 
 def read_orders(stream: IO[bytes], name: str) -> tuple[Order, ...]:
@@ -145,12 +147,12 @@ def flown_again(documents: Iterable[Document]) -> FlownAgain:
         ValueError: if its documents do not begin with its start.
     """
     orders: list[Order] = []
-    seed, first = -1, ""
+    seed, first, scenario = -1, "", ""
     engaged: list[Engagement] = []
     for document in documents:
         match document:
             case FlightStarted():
-                seed = document.seed
+                seed, scenario = document.seed, document.scenario
                 first = next((link.pursuer for link in document.links), "")
             case CommandGiven():
                 orders.append(Order(document.t, document.command))
@@ -160,7 +162,7 @@ def flown_again(documents: Iterable[Document]) -> FlownAgain:
                 engaged += [one.engagement for one in guidance[:1]]
     if seed < 0:
         raise ValueError("The recording lacks its beginning, so it cannot be flown again.")
-    return FlownAgain(tuple(orders), engaged[0] if engaged else "engaged", seed)
+    return FlownAgain(tuple(orders), engaged[0] if engaged else "engaged", seed, scenario)
 
 
 def commands_of(orders: Sequence[Order]) -> Callable[[Second], Iterable[Command]]:

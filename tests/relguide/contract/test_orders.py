@@ -268,7 +268,7 @@ def test_a_recording_says_how_its_flight_began_and_orders_are_none(tmp_path: Pat
     file = tmp_path / "a.jsonl"
     documents = fly(fig_6(intent_known=True), plan, sample_period=1.0, seed=3)
     list(record(takewhile(lambda one: one.t < 3.0, documents), file))
-    assert flown_again(replay(file)) == FlownAgain((), "engaged", 3)
+    assert flown_again(replay(file)) == FlownAgain((), "engaged", 3, fig_6(intent_known=True).name)
     with pytest.raises(ValueError, match="lacks its beginning"):
         flown_again([])
     for other in (ORDERS, b"", b"\xff", b"[]"):
