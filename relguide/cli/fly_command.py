@@ -145,7 +145,7 @@ def run(chosen: argparse.Namespace) -> int:
 
     if chosen.sample_rate is not None and chosen.record is None:
         raise ValueError("--sample-rate is for a recording: add --record FILE.")
-    orders, script, engagement, seed = read_ordered(
+    orders, script, engagement, seed, recorded = read_ordered(
         chosen.scenario, chosen.orders, chosen.crew, chosen.seed
     )
     scenario = _scenario(chosen.scenario, seed, chosen.callsign)
@@ -157,6 +157,8 @@ def run(chosen: argparse.Namespace) -> int:
     if chosen.director:
         scenario = replace(scenario, by_hand=PilotModel())
     expect_flying(orders, script, world_of(scenario))
+    if recorded not in ("", scenario.name):
+        say(f"{chosen.orders} is a flight of {recorded}, not of {scenario.name}: this is another.")
     settings = DEFAULT if chosen.settings is None else load_settings(chosen.settings)
     planner = make_planner(chosen.planner)
     flown = partial(

@@ -17,6 +17,8 @@ class Ordered(NamedTuple):
     script: "tuple[CrewOrder, ...]"
     engagement: "Engagement"
     seed: int
+    recorded: str = ""
+    """The name of what a recording that gives the orders has flown; empty for other orders."""
 
 
 def read_ordered(flown: str, orders: str | None, crew: str | None, seed: int | None) -> Ordered:
@@ -39,9 +41,9 @@ def read_ordered(flown: str, orders: str | None, crew: str | None, seed: int | N
     ordered = Ordered((), (), "engaged", seed or 0)
     if orders is not None:
         if orders.endswith((".jsonl", ".jsonl.gz")) and is_recording(orders):
-            given, engagement, recorded = flown_again(replay(orders))
-            taken = recorded if seed is None else seed
-            ordered = Ordered(given, (), engagement, taken)
+            again = flown_again(replay(orders))
+            taken = again.seed if seed is None else seed
+            ordered = Ordered(again.orders, (), again.engagement, taken, again.scenario)
         else:
             with open_input(orders) as stream:
                 ordered = ordered._replace(orders=read_orders(stream, _name(orders)))

@@ -31,6 +31,7 @@ from relguide.flying.engagement import Engagement
 from relguide.flying.orders import Command, order_fault
 from relguide.flying.scripted_crew import CrewOrder
 from relguide.flying.world import World
+from relguide.planning.inputs import expect
 from relguide.units import Second
 
 MAX_LINE = 10_000
@@ -60,6 +61,8 @@ class FlownAgain(NamedTuple):
     engagement: Engagement
     """How far guidance was engaged at the start."""
     seed: int
+    scenario: str
+    """The name of what was flown."""
 
 
 def read_orders(stream: IO[bytes], name: str) -> tuple[Order, ...]:
@@ -126,10 +129,12 @@ def crew_of(script: Sequence[Mapping[str, Any]]) -> tuple[CrewOrder, ...]:
     Raises:
         ValueError: naming the first that is no order of a crew, and what would be right.
     """
+    expect("crew", script, list, tuple)
     orders = list[CrewOrder]()
     for number, order in enumerate(script, start=1):
         try:
-            orders.append(crew_order(parse(CrewOrderBody, dict(order)).root))
+            read = dict(order) if isinstance(order, Mapping) else None
+            orders.append(crew_order(parse(CrewOrderBody, read).root))
         except ContractError as error:
             raise ValueError(f"crew, order {number}: {error}") from None
     return tuple(orders)
@@ -142,12 +147,12 @@ def flown_again(documents: Iterable[Document]) -> FlownAgain:
         ValueError: if its documents do not begin with its start.
     """
     orders: list[Order] = []
-    seed, first = -1, ""
+    seed, first, scenario = -1, "", ""
     engaged: list[Engagement] = []
     for document in documents:
         match document:
             case FlightStarted():
-                seed = document.seed
+                seed, scenario = document.seed, document.scenario
                 first = next((link.pursuer for link in document.links), "")
             case CommandGiven():
                 orders.append(Order(document.t, document.command))
@@ -157,7 +162,7 @@ def flown_again(documents: Iterable[Document]) -> FlownAgain:
                 engaged += [one.engagement for one in guidance[:1]]
     if seed < 0:
         raise ValueError("The recording lacks its beginning, so it cannot be flown again.")
-    return FlownAgain(tuple(orders), engaged[0] if engaged else "engaged", seed)
+    return FlownAgain(tuple(orders), engaged[0] if engaged else "engaged", seed, scenario)
 
 
 def commands_of(orders: Sequence[Order]) -> Callable[[Second], Iterable[Command]]:

@@ -171,6 +171,18 @@ def test_the_leader_does_as_ordered_and_is_followed_as_long_as_asked(run: Run) -
 
 
 @pytest.mark.slow
+def test_orders_of_a_recording_of_another_scenario_are_given_with_a_word(
+    run: Run, flown: tuple[Path, dict[str, Any]]
+) -> None:
+    file, _ = flown
+    recorded = next(d for d in replay(file) if isinstance(d, FlightStarted))
+    _, _, err = run("fly", "lesson_bar", "--orders", str(file), "--json")
+    assert f"is a flight of {recorded.scenario}, not of lesson_bar" in err
+    code, _, err = run("fly", write(NEAR), "--orders", str(file), "--json")
+    assert (code, err) == (0, "")
+
+
+@pytest.mark.slow
 def test_a_time_is_kept_and_guidance_flies_by_the_settings_given(run: Run) -> None:
     settings = write("[guidance]\njoined_along_nm = 0.1\nalways_ask = true\n", "own.toml")
     options = ("--spacing", "60", "--settings", settings, "--record", "s.jsonl.gz", "--json")

@@ -18,8 +18,8 @@ from relguide.contract.orders import (
     MAX_LINE,
     FlownAgain,
     Order,
-    begun,
     commands_of,
+    crew_of,
     expect_flying,
     flown_again,
     read_crew,
@@ -45,7 +45,7 @@ from relguide.flying.orders import (
     Stick,
 )
 from relguide.flying.scenarios import fig_6
-from relguide.flying.scripted_crew import CrewOrder
+from relguide.flying.scripted_crew import CrewOrder, begun
 from relguide.planning.plan import plan
 from tests.documents import orders
 
@@ -268,9 +268,23 @@ def test_a_recording_says_how_its_flight_began_and_orders_are_none(tmp_path: Pat
     file = tmp_path / "a.jsonl"
     documents = fly(fig_6(intent_known=True), plan, sample_period=1.0, seed=3)
     list(record(takewhile(lambda one: one.t < 3.0, documents), file))
-    assert flown_again(replay(file)) == FlownAgain((), "engaged", 3)
+    assert flown_again(replay(file)) == FlownAgain((), "engaged", 3, fig_6(intent_known=True).name)
     with pytest.raises(ValueError, match="lacks its beginning"):
         flown_again([])
     for other in (ORDERS, b"", b"\xff", b"[]"):
         file.write_bytes(other)
         assert not is_recording(file)
+
+
+@pytest.mark.parametrize(
+    ("script", "said"),
+    [
+        (7, "crew must be a list or a tuple, not 7"),
+        ({"on": "armed"}, "crew must be a list or a tuple, not "),
+        ([{"on": "armed", "autopilot": False}, 7], "crew, order 2: This must be an object"),
+        (["{}"], "crew, order 1: This must be an object"),
+    ],
+)
+def test_what_is_no_script_of_a_crew_is_refused_in_a_sentence(script: Any, said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        crew_of(script)

@@ -3,7 +3,7 @@
 import { samplePath, windVector } from "../geometry";
 import type { History } from "../store/history";
 import type { FlownByHand, PathPoint } from "../wire";
-import type { Flown } from "./seconds";
+import { type Flown, plansOf } from "./seconds";
 
 /** The bank is on the bar within so much [deg]: as a flight counts it. */
 const WITHIN = 2;
@@ -33,8 +33,10 @@ function tubeOf(history: History, hand: Flown["seconds"]): number {
   const wind = windVector(
     history.knownAt(Number.POSITIVE_INFINITY).started?.wind ?? { from_deg: 0, speed_mps: 0 },
   );
-  const plans = history.events.filter((each) => each.kind === "plan_changed");
-  const paths = plans.map(({ t_s, plan }) => ({ t_s, path: samplePath(plan.segments, wind) }));
+  const paths = plansOf(history).map(({ t_s, plan }) => ({
+    t_s,
+    path: samplePath(plan.segments, wind),
+  }));
   return hand
     .filter(({ sample }) => sample.mode === "converge")
     .map(({ t, sample }) => {

@@ -9,7 +9,7 @@ import { type History, momentAt } from "../store/history";
 import { formatClock, inPageUnits } from "../units";
 import type { PathPoint, PathSegment } from "../wire";
 import { intentFlown } from "./leader-flown";
-import type { Flown } from "./seconds";
+import { type Flown, plansOf } from "./seconds";
 
 /** A path to compare with, and what it is. */
 export interface Fastest {
@@ -55,7 +55,7 @@ export async function fastestOf(history: History, flown: Flown): Promise<Fastest
 
 /** The plan as it was when the time began to count. */
 function first(history: History, { from }: Flown, why: string): Fastest {
-  const plans = history.events.filter((each) => each.kind === "plan_changed");
+  const plans = plansOf(history);
   const plan = plans.findLast(({ t_s }) => t_s <= from + 1) ?? plans[0];
   if (plan === undefined) return { path: [], joins: null, sentence: why };
   return {

@@ -6,7 +6,7 @@ import { formatClock, formatMiles } from "../units";
 import type { FlownByHand } from "../wire";
 import type { Fastest } from "./fastest";
 import type { Losses } from "./losses";
-import type { Flown } from "./seconds";
+import { type Flown, plansOf } from "./seconds";
 
 export interface Figure {
   readonly label: string;
@@ -35,9 +35,7 @@ export function figuresOf(
     fastest.joins === null || joined === null
       ? ""
       : `${seconds(joined - fastest.joins)} over the fastest path`;
-  const replans = history.events.filter(
-    (each) => each.kind === "plan_changed" && each.reason !== "engaged",
-  ).length;
+  const replans = plansOf(history).filter(({ reason }) => reason !== "engaged").length;
   return [
     figure("Joined at", joined === null ? "not joined" : formatClock(joined), over),
     ...(forecast == null

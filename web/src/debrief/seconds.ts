@@ -2,6 +2,7 @@
 
 import type { History } from "../store/history";
 import type { PairSample } from "../store/pair";
+import type { PlanChanged } from "../wire";
 
 /** One second. */
 export interface Second {
@@ -39,6 +40,14 @@ export function flownOf(history: History): Flown | null {
   const to = joined ?? knots.span.last;
   const seconds = known.filter((t) => t <= to).flatMap((t) => secondAt(history, t, joined));
   return { from, to, joined, byHand: first >= 0, seconds };
+}
+
+/** The plans of own ship, none of others that join somebody in the same flight. */
+export function plansOf(history: History): PlanChanged[] {
+  const { started } = history.knownAt(Number.POSITIVE_INFINITY);
+  return history.events
+    .filter((each) => each.kind === "plan_changed")
+    .filter(({ ident }) => ident === started?.pursuer.ident);
 }
 
 function isEngaged({ knots }: History, t: number): boolean {

@@ -2,7 +2,7 @@ import { describe, expect, test } from "vitest";
 import { beside, countByHand } from "../../src/debrief/by-hand";
 import { intentFlown } from "../../src/debrief/leader-flown";
 import { lossesOf } from "../../src/debrief/losses";
-import { flownOf, type Second } from "../../src/debrief/seconds";
+import { flownOf, plansOf, type Second } from "../../src/debrief/seconds";
 import { createHistory } from "../../src/store/history";
 import type { PairSample } from "../../src/store/pair";
 import type { Bars } from "../../src/wire";
@@ -103,6 +103,13 @@ describe("a flight that was recorded", () => {
       ]),
     ).toBeNull();
   });
+});
+
+test("plans are own ship's: what others plan who join somebody as well is not counted", () => {
+  const history = createHistory();
+  const others = { ...planChanged(1), ident: "THIRD" };
+  history.merge([STARTED, planChanged(0), others, sample(0), sample(2)]);
+  expect(plansOf(history)).toEqual([planChanged(0)]);
 });
 
 describe("flown by hand", () => {
