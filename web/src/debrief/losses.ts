@@ -67,8 +67,7 @@ export function lossesOf({ seconds, byHand }: Pick<Flown, "seconds" | "byHand">)
 function worstOf(points: readonly Point[], seconds: readonly Second[]): Stretch[] {
   const worst: Stretch[] = [];
   while (worst.length < SHOWN) {
-    const free = points.map(({ t }) => worst.every(({ from, to }) => t <= from || t >= to));
-    const found = steepest(points, free);
+    const found = steepest(points, worst);
     if (found === null) break;
     const { from, to, lost } = found;
     worst.push({ from: from.t, to: to.t, lost, how: howBetween(seconds, from.t, to.t) });
@@ -77,13 +76,13 @@ function worstOf(points: readonly Point[], seconds: readonly Second[]): Stretch[
 }
 
 /** Where most is lost within `LONGEST`, and that as short as it can be; null if it is no whole second. */
-function steepest(points: readonly Point[], free: readonly boolean[]) {
+function steepest(points: readonly Point[], taken: readonly Stretch[]) {
   let best: { from: Point; to: Point; lost: number } | null = null;
   points.forEach((from, k) => {
     for (let n = k + 1; n < points.length; n += 1) {
       const to = points[n];
       if (to === undefined || to.t - from.t > LONGEST) break;
-      if (free[k] !== true || free[n] !== true) break;
+      if (taken.some((each) => from.t < each.to && to.t > each.from)) break;
       const lost = to.lost - from.lost;
       const more = lost - (best?.lost ?? LEAST - SLACK);
       const isShorter = best !== null && to.t - from.t < best.to.t - best.from.t;

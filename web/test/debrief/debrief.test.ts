@@ -40,6 +40,11 @@ describe("where time was lost", () => {
     expect(worst.reduce((sum, { lost }) => sum + lost, 0)).toBeLessThanOrEqual(flown);
   });
 
+  test("what is lost at once is one stretch", () => {
+    const { worst } = lossesOf({ seconds: seconds([250, 250, 300, 300, 300]), byHand: true });
+    expect(worst.map(({ from, to, lost }) => [from, to, lost])).toEqual([[1, 2, 50]]);
+  });
+
   test("a turn that is flown too little is named; one flown too much, too", () => {
     const joins = [250, 251, 252, 253];
     const turning = (rate: number) => () => ({
