@@ -1,4 +1,4 @@
-"""The crew has control: who flies a pursuer, its stick, and the flight director's bars."""
+"""The crew has control: the autopilot's switch, the stick, and the flight director's bars."""
 
 from collections.abc import Iterator, Sequence
 

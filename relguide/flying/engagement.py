@@ -1,4 +1,4 @@
-"""How far a crew has engaged relative guidance, who flies, and what may follow what.
+"""How far a crew has engaged relative guidance, what flies the aircraft, and what may follow what.
 
 off: nobody is to be joined; designated: the leader is chosen, and paths to its slot are proposed;
 armed: the proposal is accepted, and waits for the order to be flown; engaged: guidance commands.

@@ -8,7 +8,7 @@ and Adams (Simulator study of a flight director display, 1983) that pilots with 
 much as the autopilot does.
 
 The values are assumptions: of the first report we know the title and the form of the model, of the
-other two the abstracts. They are gentle ones, since nobody hurries an airliner's roll: ω_c of
+other two the abstracts. They are gentle ones, as an airliner is rolled gently: ω_c of
 0.8 … 1.2 rad/s and τ of 0.2 … 0.4 s are a quarter of the crossover, and the delay, of the tracking
 tasks in a laboratory. With a roll mode of 0.5 s, which the pilot does not take back, 1 rad/s leaves
 46° of phase. So campaigns draw each value within ± 50 %.

@@ -25,7 +25,7 @@ LOST = "The autopilot was switched on: it flies."
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Standing:
-    """What decides whether a client may take control of a flight, but for who has it."""
+    """What decides whether a client may take control of a flight that no other has."""
 
     started: FlightStarted
     over: bool

@@ -66,7 +66,7 @@ class Hands:
 
     @property
     def lost(self) -> bool:
-        """Whether somebody else has given control back to the autopilot."""
+        """Whether control went back to the autopilot by another's order."""
         return self._wanted is not None and self._lost is self._wanted
 
     @property

@@ -31,7 +31,7 @@ CAMERA = {
     "wxyz": 4, "position": 3, "fov": 0, "near": 0, "far": 0, "image_height": 0, "image_width": 0,
     "look_at": 3, "up_direction": 3,
 }  # fmt: skip
-"""What the scene is told of a browser's camera: numbers, and vectors of so many."""
+"""What a browser tells the scene of its camera: numbers, and vectors of so many."""
 SCENE_CSP = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
