@@ -54,6 +54,7 @@ function HelpText(props: Props) {
       tabIndex={-1}
       ref={dialog}
     >
+      <LessonList {...props} />
       <h2 id="help-title">Keys</h2>
       <dl>
         {KEYS.map(([keys, what]) => (
@@ -67,7 +68,6 @@ function HelpText(props: Props) {
           </div>
         ))}
       </dl>
-      <LessonList {...props} />
       <h2>On the display</h2>
       <p>Point at anything on it, or tap it, to read what it is.</p>
       <ul class="legend">
