@@ -125,7 +125,7 @@ class Access:
         if path == "/" and scope["type"] == "http":
             shown = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
             if self._role(shown) is not None:
-                return _remember(shown, root_of(scope))
+                return _remember(shown, scope)
         token = _token(headers)
         role = self._role(token)
         if role is None:
@@ -217,10 +217,14 @@ def _token(headers: Headers) -> str:
     return cookie.value if cookie else ""
 
 
-def _remember(token: str, root: str) -> Response:
-    """The page without the token in its address, which a browser's history would keep."""
-    answer = RedirectResponse(f"{root}/", 303)
-    answer.set_cookie(COOKIE, token, path=f"{root}/", httponly=True, samesite="strict")
+def _remember(token: str, scope: Scope) -> Response:
+    """The page without the token in its address, which a browser's history would keep.
+
+    What was kept over https, browsers send over https alone.
+    """
+    page, safe = f"{root_of(scope)}/", scope["scheme"] == "https"
+    answer = RedirectResponse(page, 303)
+    answer.set_cookie(COOKIE, token, path=page, secure=safe, httponly=True, samesite="strict")
     return answer
 
 

@@ -138,6 +138,14 @@ def test_a_browser_shows_its_token_once(guarded: TestClient) -> None:
     guarded.cookies.clear()
 
 
+@pytest.mark.parametrize("scheme", ["http", "https"])
+def test_a_token_kept_over_https_is_sent_over_https_alone(guarded: TestClient, scheme: str) -> None:
+    address = f"{scheme}://localhost/?token={TOKENS['view']}"
+    kept = guarded.get(address, follow_redirects=False).headers["set-cookie"]
+    guarded.cookies.clear()
+    assert ("Secure" in kept) == (scheme == "https")
+
+
 @pytest.mark.parametrize("text", ["view", "view:short", "pilot:" + "x" * 16])
 def test_tokens_that_are_none_are_refused(text: str) -> None:
     with pytest.raises(ValueError, match="tokens must be a list"):
