@@ -3,10 +3,11 @@
 import argparse
 import socket
 from importlib import import_module
+from ipaddress import ip_address
 from textwrap import fill, indent
 from typing import Any
 
-from relguide.cli.output import DONE, write
+from relguide.cli.output import DONE, say, write
 from relguide.planning.extras import need
 
 PURPOSE = "start the service and the cockpit"
@@ -61,8 +62,34 @@ def run(chosen: argparse.Namespace) -> int:
     app = _server("app").app_of(settings)
     shown = f"[{host}]" if ":" in host else host
     write(f"relguide is on http://{shown}:{port}{settings.root_path} (Ctrl-C stops it)\n")
+    warning = open_to_all(host, settings.tokens)
+    if warning:
+        say(warning)
     _server("serving").serve(app, host=host, port=port)
     return DONE
+
+
+def open_to_all(host: str, tokens: str) -> str:
+    """What to say of a service that others may do everything with; empty if they may not.
+
+    Args:
+        host: the address that it listens at.
+        tokens: the setting.
+    """
+    if tokens or host == "localhost" or (_is_address(host) and ip_address(host).is_loopback):
+        return ""
+    return (
+        f"Everyone that reaches {host} may start, command and end flights, and delete records: "
+        "set RELGUIDE_TOKENS to allow it to some."
+    )
+
+
+def _is_address(host: str) -> bool:
+    try:
+        ip_address(host)
+    except ValueError:
+        return False
+    return True
 
 
 def _server(name: str) -> Any:
