@@ -12,21 +12,25 @@ export function openDebriefs(
   /** The flight that is flown by hand, and the one whose debrief was opened. */
   let flown: string | null = null;
   let opened: string | null = null;
+  /** Whether it was given up: it may be engaged again, and flown on. */
+  let wasGivenUp = false;
   effect(() => {
     if (flight.id.value !== opened) lost.value = [];
   });
   effect(() => {
     const { now, ended, engagement } = flight.read.value;
     const id = flight.id.value;
+    const isOff = engagement?.engagement === "off";
+    if (id === opened && wasGivenUp && !isOff) opened = flown = null;
     if (id === null || id === opened || recording.value !== null || now === null) return;
     if (flight.source.value.kind !== "live") return;
     if (now.autopilot === false) flown = id;
-    const isOff = engagement?.engagement === "off";
     const isOver = ended || flight.clock.value.ended || now.joined || isOff;
     const isLesson = lessonOf(status.value?.scenario) !== null;
     // whoever still flies needs the instrument more; a lesson is over, and gives control back
     if (flown !== id || !isOver || (hands.value !== null && !isLesson)) return;
     opened = id;
+    wasGivenUp = isOff;
     untracked(() => {
       debriefOpen.value = true;
       if (!isLesson) return;

@@ -24,3 +24,31 @@ test.each([
   hands.value = null;
   expect(debriefOpen.value).toBe(true);
 });
+
+test("a flight that was given up and is engaged again has a debrief of its own", () => {
+  const session = createSession(createFlightStore().flight);
+  const { flight, debriefOpen } = session;
+  openDebriefs(session, silentActions());
+  flight.id.value = "one";
+  const fly = (engaged: boolean, joined: boolean) => {
+    const now = pairAt(10, { autopilot: false, joined });
+    const to = engaged ? "engaged" : "off";
+    const engagement = {
+      kind: "engagement_changed",
+      t_s: 10,
+      ident: now.pursuer.ident,
+      engagement: to,
+      previous: engaged ? "armed" : "engaged",
+      message: "",
+    } as const;
+    amend(flight, { started: pairCard(STARTED), sample: now, now, engagement });
+  };
+  fly(true, false);
+  fly(false, false);
+  expect(debriefOpen.value).toBe(true);
+  debriefOpen.value = false;
+  fly(true, false);
+  expect(debriefOpen.value).toBe(false);
+  fly(true, true);
+  expect(debriefOpen.value).toBe(true);
+});
