@@ -170,11 +170,12 @@ def _refuse_lost(
 
 def _too_close(least: Metre, assignment: Assignment) -> NoPlan:
     """Why a plan that exists is not flown."""
-    limit = assignment.min_separation
+    limit, kept = assignment.min_separation, assignment.kept_separation
+    beside = f" and the {distance(kept - limit)} kept beside it" if least >= limit else ""
     return NoPlan(
         reason=Reason.SEPARATION_UNAVOIDABLE,
         message=f"A path exists, but an aircraft that has to roll and brake would come within "
-        f"{distance(least)} of the leader on it, closer than {distance(limit)}.",
+        f"{distance(least)} of the leader on it, closer than {distance(limit)}{beside}.",
     )
 
 

@@ -18,6 +18,7 @@ from relguide.kernels.flight.guide import CONVERGE
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.outcome import NoPlan, Plan, Reason
+from relguide.planning.phrases import distance
 from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
@@ -127,6 +128,22 @@ def test_where_no_wider_berth_is_found_it_is_not_flown_at_all() -> None:
     assert found.answer.reason == Reason.SEPARATION_UNAVOIDABLE
     assert "an aircraft that has to roll and brake would come within" in found.answer.message
     assert "closer than 5.00 NM" in found.answer.message
+
+
+def test_what_keeps_d_min_and_not_its_margin_is_refused_with_both() -> None:
+    """A sentence that says "within 5.10 NM, closer than 5.00 NM" would be no reason."""
+    belief, exact = observe(GRAZING, BARE)
+    assignment = replace(exact, margin=300.0)
+
+    def planner(situation: Situation) -> Plan | NoPlan:
+        if situation.min_separation > assignment.buffered_separation:
+            return NoPlan(reason=Reason.SEPARATION_UNAVOIDABLE, message="Nothing wider.")
+        return plan(situation)
+
+    found = propose(belief, assignment, None, planner)
+    assert isinstance(found, NoProposal)
+    beside = distance(assignment.kept_separation - assignment.min_separation)
+    assert f"closer than 5.00 NM and the {beside} kept beside it." in found.answer.message
 
 
 def test_where_nothing_keeps_the_buffer_d_min_alone_is_kept() -> None:
