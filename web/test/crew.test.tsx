@@ -47,7 +47,7 @@ describe("the switches", () => {
     const { session, actions } = flying({ autopilot: false, director: true });
     render(<Switches session={session} actions={actions} />, place);
     expect(pressed()).toEqual(["false", "true", "true"]);
-    expect(named("Primary flight display").disabled).toBe(true);
+    expect(named("PFD").disabled).toBe(true);
     named("Autopilot").click();
     expect(actions.setAutopilot).toHaveBeenCalledWith(true);
   });

@@ -46,7 +46,6 @@ export function Switches({ session, actions }: Props) {
       <button
         type="button"
         aria-pressed={isOpen}
-        aria-label="Primary flight display"
         title="The instrument to fly by (I); it is shown while you fly"
         disabled={!autopilot}
         onClick={() => {

@@ -28,16 +28,19 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
           End
         </button>
       </div>
-      <button
-        type="button"
-        title="Both figures of the paper flown at once, one beside the other"
-        onClick={() => actions.compare(...FIGURES)}
-      >
-        Fig. 6a beside 6b
-      </button>
-      <button type="button" onClick={set(session.debriefOpen, true)}>
-        Debrief
-      </button>
+      <div class="row">
+        <button
+          type="button"
+          class="grow"
+          title="Both figures of the paper flown at once, one beside the other"
+          onClick={() => actions.compare(...FIGURES)}
+        >
+          Fig. 6a beside 6b
+        </button>
+        <button type="button" onClick={set(session.debriefOpen, true)}>
+          Debrief
+        </button>
+      </div>
       <FeedbackLine feedback={feedback.value} />
     </Panel>
   );
