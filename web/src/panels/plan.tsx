@@ -32,6 +32,7 @@ export function PlanNumbers({ session, label, note, remark }: Given) {
   return (
     <Panel
       name="plan"
+      scrolls
       title="Convergence"
       aside={<span class={`mode-name ${numbers.state}`}>{STATE_NAMES[numbers.state]}</span>}
       {...(numbers.alarm !== null && { alarm: numbers.alarm.level })}
