@@ -200,10 +200,13 @@ async def show_flight(flight_id: FlightId, request: Request, fleet: FleetOf) -> 
     summary="End a flight",
     responses=ENDED | problem_responses("not-allowed", "not-found"),
 )
-async def end_flight(flight_id: FlightId, request: Request, fleet: FleetOf) -> Response:
-    """Its streams and its scene close with it."""
+async def end_flight(
+    flight_id: FlightId, request: Request, fleet: FleetOf, records: RecordsOf
+) -> Response:
+    """Its streams and its scene close with it; what is read of its record then is all of it."""
     expect_owner(request, fleet.find(flight_id).label.owner)
     await fleet.remove(flight_id)
+    await records.saved()
     return Response(status_code=204)
 
 
