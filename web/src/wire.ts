@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-f9fc6a32e7c0";
+export const PROTOCOL = "relguide-73a67f425371";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -215,6 +215,12 @@ export type DeviationKind = "across" | "along" | "spacing" | "level" | "turn";
 /** How far. */
 export type DeviationLevel = "none" | "caution" | "alert";
 
+/** What is kept behind the traffic. */
+export type SpacingGoal = DistanceGoal | TimeGoal;
+
+/** A request for a clearance. */
+export type ClearanceRequest = FlightClearanceRequest | IntentClearanceRequest;
+
 /** What the controllers' stream brings. */
 export type AtcDocument =
   | ClearanceChanged
@@ -427,6 +433,14 @@ export interface AssignmentChanged {
   message: string;
 }
 
+/** A frame of the controllers' stream: what happened since the last one, in order. */
+export interface AtcFrame {
+  kind: "atc";
+  number: number;
+  snapshot: boolean;
+  documents: AtcDocument[];
+}
+
 /** The crew takes control from the autopilot, or gives it back. */
 export interface AutopilotOrder {
   t_s?: number;
@@ -514,6 +528,13 @@ export interface CellCard {
   lon_deg?: number[];
 }
 
+/** What the controller says to a request, or does with a clearance. */
+export interface ClearanceAnswer {
+  answer: "accepted" | "unable" | "standby" | "cancelled" | "terminated";
+  reason?: ReasonCode | "";
+  message?: string;
+}
+
 /** A clearance: what is asked for, what automation finds, what was answered. */
 export interface ClearanceCard {
   id: string;
@@ -558,6 +579,26 @@ export interface ClearanceChanged {
   kind: "clearance_changed";
   t_s: number;
   clearance: ClearanceCard;
+}
+
+/** Clearances. */
+export interface ClearanceList {
+  clearances: ClearanceCard[];
+}
+
+/** What the crew says to its clearance. */
+export interface ClearanceReply {
+  reply: "WILCO" | "UNABLE" | "CANCEL";
+  message?: string;
+}
+
+/** What a request would be found to be; nothing is kept of it. */
+export interface ClearanceTrial {
+  text: string;
+  joins_s: number;
+  route: TrackCard;
+  leader_route: TrackCard;
+  validation: ValidationCard;
 }
 
 /** How near a pursuer came to one other aircraft, or to the edge of a cell. */
@@ -717,6 +758,12 @@ export interface DiscCell {
   growth_mps?: number;
 }
 
+/** A distance to keep behind the traffic. */
+export interface DistanceGoal {
+  type: "distance";
+  value_m: number;
+}
+
 /** A word that reaches the place of the slot before it opens. */
 export interface EarlyAlternativeCard {
   /** Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min. */
@@ -825,6 +872,13 @@ export interface Finding {
   message: string;
   /** Of the aircraft or airspaces that it is about. */
   idents?: string[];
+}
+
+/** A flight of this service asks for what its guidance flies or proposes. */
+export interface FlightClearanceRequest {
+  flight_id: string;
+  aircraft?: string;
+  clearance_type?: "capture_then_maintain";
 }
 
 /** How the flight went: the last document. */
@@ -981,6 +1035,17 @@ export interface ForecastChanged {
   lon_deg?: number[];
 }
 
+/** Who asks, now, placed on the earth (WGS84). */
+export interface GeodeticAircraft {
+  ident: string;
+  lat_deg: number;
+  lon_deg: number;
+  heading_deg: number;
+  tas_mps: number;
+  max_bank_deg: number;
+  altitude_m?: number | null;
+}
+
 /** A corner of a cell, placed on the earth (WGS84). */
 export interface GeodeticCorner {
   lat_deg: number;
@@ -1097,6 +1162,18 @@ export interface HeadingOrder {
 export interface HeadingReference {
   kind: "hold_heading";
   heading_deg: number;
+}
+
+/** An aircraft asks for what it declares that it will fly. */
+export interface IntentClearanceRequest {
+  aircraft: LocalAircraft | GeodeticAircraft;
+  intent: IntentPiece[];
+  clearance_type?: "capture_then_maintain";
+  traffic_id: string;
+  assigned_spacing_goal: SpacingGoal;
+  min_separation_m: number;
+  wind?: WindBody;
+  sky?: string;
 }
 
 /** The leader's intent is received (`True`) or withdrawn (`False`). */
@@ -1336,6 +1413,17 @@ export interface LinkResult {
   least_other?: ClosestOther[];
   /** How it was flown by hand; none where the autopilot flew all the while. */
   by_hand?: FlownByHand[];
+}
+
+/** Who asks, now, in the sky of a flight. */
+export interface LocalAircraft {
+  ident: string;
+  x_m: number;
+  y_m: number;
+  heading_deg: number;
+  tas_mps: number;
+  max_bank_deg: number;
+  altitude_m?: number | null;
 }
 
 /** A round cell, at t = 0. */
@@ -2221,6 +2309,12 @@ export interface Tick {
   paused: boolean;
   ended: boolean;
   documents: Document[];
+}
+
+/** A time to keep behind the traffic. */
+export interface TimeGoal {
+  type: "time";
+  value_s: number;
 }
 
 /** A track in columns of equal length: straight lines between knots. */
