@@ -288,6 +288,8 @@ def _conversion(name: str, annotation: Any, unit: str) -> tuple[Convert, Convert
         return _expect_finite, _keep
     if annotation in (int, bool, str):
         return annotation, _keep  # also turns numpy's scalars into Python's
+    if annotation == tuple[str, ...]:
+        return list, _keep
     if get_origin(annotation) is tuple:
         return _encode_all, _keep
     if is_dataclass(annotation):

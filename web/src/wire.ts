@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-73a67f425371";
+export const PROTOCOL = "relguide-749eed4ac58f";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -564,6 +564,10 @@ export interface ClearanceCard {
   joins_s: number;
   route: TrackCard;
   leader_route: TrackCard;
+  /** That its turns need; left out where it is not known. */
+  bank_deg?: number;
+  /** That the aircraft has; left out where it is not known. */
+  max_bank_deg?: number;
   /** The last one; none before the first. */
   validation: ValidationCard[];
   /** Those that stand now. */
@@ -2326,6 +2330,12 @@ export interface TrackCard {
   y_m: number[];
   /** Pressure altitude in the middle of what is possible; left out where it is not known. */
   altitude_m?: number[];
+  /** It is at least this high … */
+  low_m?: number[];
+  /** … and at most this; both are left out with the altitude. */
+  high_m?: number[];
+  /** What is flown strays from these lines by no more than this, at its time. */
+  error_m?: number;
   /** WGS84; there if the situation came with latitudes. */
   lat_deg?: number[];
   /** WGS84; there if the situation came with latitudes. */

@@ -1,0 +1,1 @@
+"""Whether an aircraft flies what it is cleared to fly."""
