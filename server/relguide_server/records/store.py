@@ -68,7 +68,7 @@ class Store:
             _upsert(connection, clearances, rows.clearances, replace=True)
 
     def beats(self) -> dict[str, int]:
-        """Runs other than this one with flights or clearances that live, and how far each counted."""
+        """Other runs whose flights or clearances live, and how far each of them has counted."""
         flying = sa.select(flights.c.run).where(flights.c.outcome == "flying")
         cleared = sa.select(clearances.c.run).where(clearances.c.over.is_(False))
         query = (
