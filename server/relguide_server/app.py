@@ -197,15 +197,16 @@ async def show_readiness(
     Records do not count: a service whose database is gone plans and flies as ever.
     """
     workers: WorkerPool = request.app.state.workers
+    answers = await workers.answers()
     report = preparation.report() | {
         "planning": {
-            "answers": workers.ready,
+            "answers": answers,
             "processes": len(workers.processes),
             "waiting": workers.waiting,
         },
         "records": records.report().model_dump(),
     }
-    if preparation.ready and workers.ready:
+    if preparation.ready and answers:
         return json_answer(report)
     report["status"] = "preparing"
     again = {"Retry-After": str(preparation.seconds_left())}
