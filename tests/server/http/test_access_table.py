@@ -4,15 +4,16 @@ import asyncio
 import gzip
 import json
 import socket
-import sys
 from collections.abc import Iterator
 
 import httpx2 as httpx
 import pytest
+import viser
 from relguide_server.app import create_app
 from relguide_server.http.access import NO_TOKEN, ROLES, UNKNOWN_TOKEN
 from relguide_server.http.connections import LONGEST_HEAD
 from relguide_server.planning.plans import EXAMPLE
+from relguide_server.scene.guarded_port import HEADER, SECRET
 from relguide_server.settings import ServiceSettings
 from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
@@ -139,9 +140,8 @@ def test_sockets_need_a_token() -> None:
         assert asyncio.run(listen(address, started["stream_url"], TOKENS["view"])) == (101, "")
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="other systems have one loopback address")
-def test_a_scene_is_not_where_a_page_would_look_for_it() -> None:
-    """Viser itself takes commands from pages of any origin."""
+def test_the_port_of_a_scene_is_for_the_service_alone() -> None:
+    """Viser itself takes commands from all that connect."""
     app = ideal_app()
 
     async def find() -> str:
@@ -149,15 +149,26 @@ def test_a_scene_is_not_where_a_page_would_look_for_it() -> None:
         address: str = await flight.enter_scene()
         return address
 
+    async def dial(address: str, headers: dict[str, str]) -> int:
+        protocols = [Subprotocol(f"viser-v{viser.__version__}")]
+        url = f"ws://{address}"
+        try:
+            async with connect(
+                url, subprotocols=protocols, additional_headers=headers, proxy=None, max_size=None
+            ) as scene:
+                await scene.recv()
+        except InvalidStatus as refused:
+            return refused.response.status_code
+        return 101
+
     with TestClient(app) as client:
         client.post("/api/v1/flights", json=FLIGHT)
-        host, _, port = client.portal.call(find).partition(":")
-        assert host.startswith("127.")
-        with socket.create_connection((host, int(port)), 5.0):
-            pass
-        for other in ("127.0.0.1", socket.gethostbyname(socket.gethostname())):
-            with pytest.raises(OSError, match=r"refused|unreachable|timed out"):
-                socket.create_connection((other, int(port)), 0.5)
+        address = client.portal.call(find)
+        assert address.startswith("127.0.0.1:")
+        for headers in ({}, {HEADER: ""}, {HEADER: SECRET[:-1]}, {"Origin": f"http://{address}"}):
+            assert asyncio.run(dial(address, headers)) == 403
+        assert asyncio.run(dial(address, {HEADER: SECRET})) == 101
+        assert httpx.get(f"http://{address}/").status_code == 403
 
 
 @pytest.mark.parametrize(
