@@ -10,8 +10,8 @@ import httpx2 as httpx
 import pytest
 import viser
 from relguide_server.app import create_app
+from relguide_server.doors.connections import LONGEST_HEAD
 from relguide_server.http.access import NO_TOKEN, ROLES, UNKNOWN_TOKEN
-from relguide_server.http.connections import LONGEST_HEAD
 from relguide_server.planning.plans import EXAMPLE
 from relguide_server.scene.guarded_port import HEADER, SECRET
 from relguide_server.settings import ServiceSettings
@@ -278,7 +278,7 @@ def test_a_large_body_is_no_head() -> None:
 
 
 def test_a_head_that_never_comes_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("relguide_server.http.connections.HEAD_PATIENCE", 0.3)
+    monkeypatch.setattr("relguide_server.doors.connections.HEAD_PATIENCE", 0.3)
     with serve(ideal_app()) as address:
         host, _, port = address.partition(":")
         for begun in (b"", b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Slow: "):
