@@ -82,7 +82,7 @@ def test_two_that_turn_are_found_where_samples_five_seconds_apart_miss_them():
     missed = 0
     for aside in np.linspace(9_100.0, 9_700.0, 61):
         other = Traffic(
-            ident="T", x=2.0 * radius + aside, y=0.0, heading=0.0, tas=tas, min_separation=5.0 * NM
+            ident="T", x=4.0 * radius + aside, y=0.0, heading=0.0, tas=tas, min_separation=5.0 * NM
         )
         mirrored = Trajectory(
             x=other.x, y=0.0, heading=0.0, tas=tas,
