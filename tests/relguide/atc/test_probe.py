@@ -77,7 +77,7 @@ def test_two_that_turn_are_found_where_samples_five_seconds_apart_miss_them():
     radius, tas = 6_000.0, 230.0
     own = Trajectory(
         x=0.0, y=0.0, heading=0.0, tas=tas,
-        segments=(Arc(turn=RIGHT, turn_angle=pi, radius=radius), Straight(length=50_000.0)),
+        segments=(Arc(turn=RIGHT, turn_angle=1.5 * pi, radius=radius), Straight(length=50_000.0)),
     )  # fmt: skip
     missed = 0
     for aside in np.linspace(9_100.0, 9_700.0, 61):
@@ -86,7 +86,7 @@ def test_two_that_turn_are_found_where_samples_five_seconds_apart_miss_them():
         )
         mirrored = Trajectory(
             x=other.x, y=0.0, heading=0.0, tas=tas,
-            segments=(Arc(turn=LEFT, turn_angle=pi, radius=radius), Straight(length=50_000.0)),
+            segments=(Arc(turn=LEFT, turn_angle=1.5 * pi, radius=radius), Straight(length=50_000.0)),
         )  # fmt: skip
         tracks = [path_track(one, start=NOW, until=NOW + 200.0) for one in (own, mirrored)]
         (found,) = probe(
