@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from math import cos, inf, sin
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from relguide.atc.picture import Seen
 from relguide.atc.request import Manoeuvre
@@ -31,25 +32,23 @@ from relguide.flying.documents import (
 )
 from relguide.flying.plan_documents import (
     BoundarySegment,
+    PathAhead,
     PathPoint,
     PathSegment,
     PlanCard,
     StraightSegment,
     TurnSegment,
 )
-from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.planning.frames import LocalPlane
 from relguide.planning.wind import Wind, wind_from
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
+WAITS: Second = 30.0
+"""Who is promised to join later than this behind the ideal plan waits for its level only [s]."""
 ARC: Radian = 3.0 * DEG
 """Points along a turn are no farther apart in heading, as those of a forecast."""
-IDEAL: Metre = 400.0
-"""What is flown lags behind an ideal plan by no more for rolling into its turns [m] …"""
-BRAKING: MetrePerSecond = 25.0
-"""… and for each second that it joins later than the plan, as it brakes. Both are the bounds of what
-flights of all scenarios were found to lag (333 m with 2 s, 706 m with 18 s)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +63,7 @@ class Placing:
     """The sky's."""
 
     def columns(
-        self, x: Sequence[float], y: Sequence[float], heading: Sequence[float]
+        self, x: ArrayLike, y: ArrayLike, heading: ArrayLike
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Places [m] and directions [rad] of the flight's world, in the sky."""
         east, north, noses = (np.asarray(column, dtype=float) for column in (x, y, heading))
@@ -176,13 +175,12 @@ def _planned(news: LinkNews, placing: Placing) -> tuple[PlanCard, Second, Track]
         raise ValueError(
             f"{who} is proposed no path: designate its leader first, and ask once there is one."
         )
-    proposal = news.proposal
-    joins = proposal.t + proposal.promised
-    later = max(proposal.promised - proposal.plan.time_to_converge, 0.0)
-    since = replace(placing, later=placing.later + proposal.t)
-    path = segments_track(proposal.plan.segments, since, wind=_wind(news))
-    path = _between(path, *_levels(news.pursuer, proposal.plan))
-    return proposal.plan, joins, replace(path, error=path.error + IDEAL + BRAKING * later)
+    proposal, ideal = news.proposal, news.proposal.plan.time_to_converge
+    later = min(max(proposal.promised - ideal, 0.0), WAITS)
+    joins = proposal.t + ideal + later
+    for ahead in proposal.ahead:
+        return proposal.plan, joins, _ahead_track(news, placing, ahead, proposal.plan)
+    raise ValueError(f"Nothing is forecast of what {who} is proposed.")
 
 
 def forecast_track(news: LinkNews, placing: Placing) -> Track:
@@ -192,13 +190,19 @@ def forecast_track(news: LinkNews, placing: Placing) -> Track:
         ValueError: if nothing is forecast.
     """
     ahead = news.forecast
-    if ahead is None or len(ahead.times) < 2:
+    if ahead is None:
         raise ValueError(f"Nothing is forecast of {news.link.pursuer}.")
+    track = _ahead_track(news, placing, ahead, None if news.plan is None else news.plan.plan)
+    return replace(track, error=track.error + max(ahead.aside, default=0.0))
+
+
+def _ahead_track(
+    news: LinkNews, placing: Placing, ahead: ForecastChanged | PathAhead, plan: PlanCard | None
+) -> Track:
     x, y, heading = placing.columns(ahead.x, ahead.y, ahead.heading)
     times = placing.later + np.array(ahead.times)
     track = points_track(times, x, y, heading, wind=placing.wind(_wind(news)))
-    track = _between(track, *_levels(news.pursuer, None if news.plan is None else news.plan.plan))
-    return replace(track, error=track.error + max(ahead.aside, default=0.0))
+    return _between(track, *_levels(news.pursuer, plan))
 
 
 def leader_track(news: LinkNews, placing: Placing) -> Track:
@@ -236,10 +240,18 @@ def segments_track(segments: Sequence[PathSegment], placing: Placing, *, wind: W
     for point in points[1:]:
         if point[0] > kept[-1][0] + 1e-3:  # a shorter piece is a rounding
             kept.append(point)
-    t, x, y, heading = zip(*kept, strict=True)
-    east, north, noses = placing.columns(x, y, heading)
-    times = placing.later + np.array(t)
-    return points_track(times, east, north, noses, wind=placing.wind(wind))
+    t, x, y, heading = map(np.array, zip(*kept, strict=True))
+    spans = np.diff(t)
+    # at a steady speed a turn one way strays from its chord by no more than T V Δψ / 4
+    speeds = np.hypot(np.diff(x) / spans - wind.east, np.diff(y) / spans - wind.north)
+    turned = np.abs([wrap_signed(angle) for angle in np.diff(heading).tolist()])
+    strays = spans * speeds * (1.0 + turned * turned / 24.0) * turned / 4.0
+    east, north, _ = placing.columns(x, y, heading)
+    unknown = np.full(len(t), inf)
+    return Track(
+        t=placing.later + t, x=east, y=north, low=-unknown, high=unknown,
+        error=float(np.max(strays)),
+    )  # fmt: skip
 
 
 def _points(segment: PathSegment) -> list[tuple[float, float, float, float]]:

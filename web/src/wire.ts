@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-a779712bf38e";
+export const PROTOCOL = "relguide-52c606c08217";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -1668,6 +1668,26 @@ export interface PairCard {
   until_s: number;
 }
 
+/**
+ * A path as an aircraft would really fly it, rolls and braking included.
+ *
+ * Columns of equal length; points close enough to draw straight lines between.
+ */
+export interface PathAhead {
+  /** Flight times, ascending. */
+  times_s: number[];
+  /** East. */
+  x_m: number[];
+  /** North. */
+  y_m: number[];
+  /** Where the nose points. */
+  heading_deg: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number[];
+}
+
 /** A place and a heading along a path, over the ground. */
 export interface PathPoint {
   /** From the beginning of the path. */
@@ -1790,6 +1810,8 @@ export interface PlanProposed {
   flown_least_m: number;
   /** Other paths to the slot that could be flown, fastest first: at most three. */
   others: OtherPathCard[];
+  /** What would be flown, as forecast; none in recordings of before. */
+  ahead?: PathAhead[];
 }
 
 /**
