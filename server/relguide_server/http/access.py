@@ -37,6 +37,8 @@ CALCULATIONS = ("/api/v1/plans", "/api/v1/areas", "/api/v1/simulations")
 """What changes nothing, though it is posted."""
 RECORDS = "/api/v1/records"
 """Nobody removes from there but who may command all flights."""
+PICTURE = ("/api/v1/traffic", "/api/v1/airspaces")
+"""Nobody else says what flies and what is closed."""
 UNKNOWN_HOST = (
     "This server does not answer for the name {name!r}. If it is its name, start it with "
     "RELGUIDE_HOSTS={name}."
@@ -201,7 +203,7 @@ def _needed(scope: Scope) -> Role:
     if scope["type"] == "websocket" or scope["method"] in SAFE:
         return "view"
     path = path_of(scope)
-    if path.startswith(RECORDS) and scope["method"] == "DELETE":
+    if path.startswith(PICTURE) or (path.startswith(RECORDS) and scope["method"] == "DELETE"):
         return "control"
     return "view" if path.startswith(CALCULATIONS) else "fly"
 
