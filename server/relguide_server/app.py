@@ -17,6 +17,8 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.outcome import Planner
+from relguide_server.atc import traffic_routes
+from relguide_server.atc.reports import Reports
 from relguide_server.flights import record_routes, routes, scene_relay, stream_docs
 from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
 from relguide_server.flights.live_fleet import LiveFleet
@@ -144,6 +146,7 @@ def create_app(
     )
     app.state.settings, app.state.catalogue = settings, catalogue
     app.state.records, app.state.recordings = records, KeptRecordings()
+    app.state.reports = Reports()
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     app.router.routes[:0] = plans.router.routes  # most requests are for these
     for part in (
@@ -154,6 +157,7 @@ def create_app(
         flown_scenarios.router,
         record_routes.router,
         scene_relay.router,
+        traffic_routes.router,
         stream_docs.router,
         problem_docs.router,
         pages.router,

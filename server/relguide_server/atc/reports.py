@@ -1,7 +1,7 @@
 """The picture that others give: each source's aircraft and airspaces, the newest report of each.
 
 A source is who puts `/traffic`, or a feed. Where several report an aircraft of one ident, the
-newest report counts. What nobody reports for `FORGOTTEN` is gone.
+newest report counts. What nobody reports for a minute is gone.
 """
 
 from collections.abc import Sequence
@@ -14,17 +14,10 @@ from starlette.requests import HTTPConnection
 
 from relguide.atc.picture import Airspace, Seen
 from relguide.atc.reported import Reported, ReportedAirspace, airspace_on, seen_on
+from relguide.contract.picture_bodies import MAX_AIRCRAFT, OLDEST
 from relguide.planning.frames import LocalPlane
 from relguide.units import Second
 
-FORGOTTEN: Second = 60.0
-"""An aircraft whose last report is older is not in the picture any more."""
-AHEAD: Second = 5.0
-"""How far clocks may differ: a report from a later time than this is not believed."""
-MOST_AIRCRAFT = 5_000
-"""Aircraft that a source may report …"""
-MOST_AIRSPACES = 500
-"""… and airspaces."""
 MOST_SOURCES = 32
 """Sources that may report at once, feeds aside."""
 
@@ -78,11 +71,13 @@ class Reports:
         """Take all aircraft that a source reports now in place of those before."""
         with self._lock:
             self._of(source).aircraft = {one.ident: one for one in reports}
+            self._tidy(source)
 
     def replace_airspaces(self, source: Source, airspaces: Sequence[ReportedAirspace]) -> None:
         """Take all airspaces that a source reports now in place of those before."""
         with self._lock:
             self._of(source).airspaces = tuple(airspaces)
+            self._tidy(source)
 
     def hear(self, source: Source, report: Reported) -> bool:
         """Take what a source reports of one aircraft; `False` if it said later things of it."""
@@ -91,7 +86,7 @@ class Reports:
             known = aircraft.get(report.ident)
             if known is not None and known.t > report.t:
                 return False
-            if known is None and len(aircraft) >= MOST_AIRCRAFT:
+            if known is None and len(aircraft) >= MAX_AIRCRAFT:
                 return False
             aircraft[report.ident] = report
             return True
@@ -101,15 +96,25 @@ class Reports:
         with self._lock:
             self._of(source).aircraft.pop(ident, None)
 
-    def forget_aircraft(self, source: Source) -> None:
-        """Forget all aircraft of a source."""
-        self.replace_aircraft(source, ())
-        self._tidy(source)
+    def forget_aircraft(self, source: Source) -> bool:
+        """Forget all aircraft of a source; `False` if it reported none."""
+        with self._lock:
+            said = self._said.get(source)
+            if said is None or not said.aircraft:
+                return False
+            said.aircraft = {}
+            self._tidy(source)
+            return True
 
-    def forget_airspaces(self, source: Source) -> None:
-        """Forget all airspaces of a source."""
-        self.replace_airspaces(source, ())
-        self._tidy(source)
+    def forget_airspaces(self, source: Source) -> bool:
+        """Forget all airspaces of a source; `False` if it reported none."""
+        with self._lock:
+            said = self._said.get(source)
+            if said is None or not said.airspaces:
+                return False
+            said.airspaces = ()
+            self._tidy(source)
+            return True
 
     def heard(self, now: Second) -> dict[str, Heard]:
         """The newest report of each aircraft that is not forgotten, by its ident.
@@ -119,10 +124,11 @@ class Reports:
         """
         newest: dict[str, Heard] = {}
         with self._lock:
-            for source, said in self._said.items():
-                gone = [one.ident for one in said.aircraft.values() if one.t < now - FORGOTTEN]
+            for source, said in list(self._said.items()):
+                gone = [one.ident for one in said.aircraft.values() if one.t < now - OLDEST]
                 for ident in gone:
                     del said.aircraft[ident]
+                self._tidy(source)
                 for ident, one in said.aircraft.items():
                     known = newest.get(ident)
                     if known is None:
@@ -171,10 +177,9 @@ class Reports:
         return self._said.setdefault(source, _Said())
 
     def _tidy(self, source: Source) -> None:
-        with self._lock:
-            said = self._said.get(source)
-            if said is not None and not said.aircraft and not said.airspaces:
-                del self._said[source]
+        """A source that says nothing takes no room."""
+        if self._said[source] == _Said():
+            del self._said[source]
 
     def _turn_to(self, plane: LocalPlane) -> None:
         """What was placed on another plane is of no use."""

@@ -3,9 +3,10 @@
 from math import inf
 
 import pytest
-from relguide_server.atc.reports import FORGOTTEN, MOST_AIRCRAFT, MOST_SOURCES, Reports, Source
+from relguide_server.atc.reports import MOST_SOURCES, Reports, Source
 
 from relguide.atc.reported import Reported, ReportedAirspace
+from relguide.contract.picture_bodies import MAX_AIRCRAFT, OLDEST
 from relguide.planning.frames import LocalPlane
 
 PLANE = LocalPlane(50.0, 8.0)
@@ -54,8 +55,8 @@ def test_a_source_does_not_go_back_in_time() -> None:
 def test_what_is_old_is_forgotten() -> None:
     reports = Reports()
     reports.hear(ONE, aircraft(t=100.0))
-    assert reports.aircraft(PLANE, 100.0 + FORGOTTEN)
-    assert not reports.aircraft(PLANE, 100.1 + FORGOTTEN)
+    assert reports.aircraft(PLANE, 100.0 + OLDEST)
+    assert not reports.aircraft(PLANE, 100.1 + OLDEST)
 
 
 def test_what_is_placed_follows_each_report_and_each_plane() -> None:
@@ -88,9 +89,17 @@ def test_sources_are_bounded_and_feeds_are_not_counted() -> None:
     assert reports.has_room(ONE)
 
 
+def test_a_source_whose_aircraft_are_old_takes_no_room() -> None:
+    reports = Reports()
+    for k in range(MOST_SOURCES):
+        reports.replace_aircraft(Source("someone", f"{k}"), [aircraft()])
+    assert not reports.heard(101.0 + OLDEST)
+    assert reports.has_room(ONE)
+
+
 def test_a_feed_is_bounded() -> None:
     reports = Reports()
-    for k in range(MOST_AIRCRAFT):
+    for k in range(MAX_AIRCRAFT):
         assert reports.hear(OTHER, aircraft(f"A{k}"))
     assert not reports.hear(OTHER, aircraft("B"))
     assert reports.hear(OTHER, aircraft("A1", t=101.0))

@@ -82,6 +82,12 @@ TABLE = {
     ("GET", "/api/v1/records/flights/{flight_id}/documents"): "view",
     ("POST", "/api/v1/records/flights/{flight_id}/replay"): "fly",
     ("GET", "/api/v1/records/flights/{flight_id}/export"): "view",
+    ("GET", "/api/v1/traffic"): "view",
+    ("PUT", "/api/v1/traffic"): "control",
+    ("DELETE", "/api/v1/traffic"): "control",
+    ("GET", "/api/v1/airspaces"): "view",
+    ("PUT", "/api/v1/airspaces"): "control",
+    ("DELETE", "/api/v1/airspaces"): "control",
 }
 
 
