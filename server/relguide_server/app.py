@@ -17,8 +17,12 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.outcome import Planner
+from relguide_server.atc import routes as clearance_routes
 from relguide_server.atc import traffic_routes
+from relguide_server.atc.desk import Desk
 from relguide_server.atc.reports import Reports
+from relguide_server.atc.skies import Skies
+from relguide_server.atc.watching import Watching
 from relguide_server.flights import record_routes, routes, scene_relay, stream_docs
 from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
 from relguide_server.flights.live_fleet import LiveFleet
@@ -112,6 +116,9 @@ def create_app(
     fleet = LiveFleet(settings, metrics)
     metrics.watch(partial(_measure, fleet, workers))
     metrics.watch(records.measure)
+    reports = Reports()
+    desk = Desk(Skies(fleet, reports), settings, records, metrics)
+    watching = Watching(desk, reports)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -119,10 +126,13 @@ def create_app(
         records.start()
         drift.start()
         fleet.start()
+        watching.start()
         workers.start(partial(preparation.can_plan_by, name), partial(load, name))
         yield
         await app.state.idempotency.stop()
         await workers.stop()
+        await watching.stop()
+        await desk.stop()
         await fleet.stop()
         await asyncio.to_thread(records.stop)
         await asyncio.to_thread(drift.stop)
@@ -146,7 +156,7 @@ def create_app(
     )
     app.state.settings, app.state.catalogue = settings, catalogue
     app.state.records, app.state.recordings = records, KeptRecordings()
-    app.state.reports = Reports()
+    app.state.reports, app.state.desk = reports, desk
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     app.router.routes[:0] = plans.router.routes  # most requests are for these
     for part in (
@@ -157,6 +167,7 @@ def create_app(
         flown_scenarios.router,
         record_routes.router,
         scene_relay.router,
+        clearance_routes.router,
         traffic_routes.router,
         stream_docs.router,
         problem_docs.router,

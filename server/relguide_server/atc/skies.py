@@ -214,9 +214,7 @@ class Skies:
                 forecast=history.find(ForecastChanged, who),
                 assignment=history.find(AssignmentChanged, who),
                 climbing=frozenset(
-                    one.ident
-                    for one in sample.aircraft
-                    if abs(self.climb(ids, one.ident)) > CLIMBS
+                    one.ident for one in sample.aircraft if abs(self.climb(ids, one.ident)) > CLIMBS
                 ),
             )
         return None
@@ -274,8 +272,8 @@ class Skies:
         if self._plane is None:
             heard = [one.report for one in self._reports.heard(self._clock()).values()]
             if heard:
-                lat, lon = (np.array([getattr(one, n) for one in heard]) for n in LATITUDE_LONGITUDE)
-                self._plane = middle_of(lat, lon)
+                lat, lon = zip(*((one.lat_deg, one.lon_deg) for one in heard), strict=True)
+                self._plane = middle_of(np.array(lat), np.array(lon))
         return self._plane
 
     def _is_near(self, plane: LocalPlane) -> bool:
@@ -336,15 +334,11 @@ class Skies:
         made_of = (source, news.plan, placing, level, ident in news.climbing)
         key = (flight.label.id, ident, make.__name__)
         known = self._tracks.get(key)
-        if known is not None and all(a is b or a == b for a, b in zip(known[0], made_of)):
+        if known is not None and known[0] == made_of:
             return known[1]
         track = make(news, placing)
         self._tracks[key] = made_of, track
         return track
-
-
-LATITUDE_LONGITUDE = ("lat_deg", "lon_deg")
-"""Of a report."""
 
 
 def _on_path(ident: str, path: Track, now: Second) -> Seen:

@@ -32,6 +32,7 @@ TAGS = {
     "plans": "Plans with their proof, of one situation or of many.",
     "areas": "How long it takes to converge, from all places round a leader.",
     "flights": "Flights that are watched and commanded, and flights flown to their end at once.",
+    "clearances": "Manoeuvres that crews ask air traffic control for, and what becomes of them.",
     "picture": "Traffic and closed airspaces that others report.",
     "records": "What was flown and planned: to search, replay, export and remove.",
     "service": "Whether the service is well.",
