@@ -159,7 +159,7 @@ class Deviation:
     """Beside the path, from D, from the level [m]; before or behind [s]; of a turn how late [s]."""
     unit: Literal["m", "s"]
     since: Second
-    """Since when it is at this level."""
+    """Since when it is at this level or above."""
     message: str
 
 
