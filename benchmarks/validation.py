@@ -33,6 +33,7 @@ from relguide.units import DEG, FT, NM
 
 NOW = 1.7e9
 STEP = 0.1
+COARSE = 20  # steps
 SETTINGS = AtcSettings()
 LEVELS = tuple(1_000.0 * FT * level for level in (32, 33, 34))
 CONSOLE = Console(width=118, highlight=False)
@@ -194,12 +195,9 @@ def spare(case: Case, rng: np.random.Generator, tally: Tally) -> float:
 
 def _spare_of(own: Flown, other: Flown, t: Floats, rng: np.random.Generator) -> float:
     """The least by which two keep the minimum; infinite if they are never near."""
-    counts = _not_apart(own.heights, other.heights, t, rng)
     if other.intends:
-        x, y = own.at(t)
-        other_x, other_y = other.at(t)
-        counts &= np.hypot(x - other_x, y - other_y) < FAR
-    t = t[counts]
+        t = t[np.repeat(_near(own, other, t[::COARSE]), COARSE)[: len(t)]]
+    t = t[_not_apart(own.heights, other.heights, t, rng)]
     if not len(t):
         return inf
     ours = _strayed(own, t, rng)
@@ -215,6 +213,13 @@ def _spare_of(own: Flown, other: Flown, t: Floats, rng: np.random.Generator) -> 
                 apart = apart - bound
             least = min(least, float(np.min(apart)))
     return least - SETTINGS.minimum
+
+
+def _near(own: Flown, other: Flown, t: Floats) -> NDArray[np.bool_]:
+    """Whether two may come near until the next of some times."""
+    (x, y), (other_x, other_y) = own.at(t), other.at(t)
+    near: NDArray[np.bool_] = np.hypot(x - other_x, y - other_y) < FAR + COARSE * STEP * 700.0
+    return near
 
 
 def _strayed(flown: Flown, t: Floats, rng: np.random.Generator) -> list[tuple[Floats, Floats]]:
@@ -362,7 +367,11 @@ def _brought_near(rng: np.random.Generator, traffic: Traffic, path: Trajectory) 
         return traffic
     t = rng.uniform(0.0, path.duration + SETTINGS.followed)
     there, here = path.pose_at(t), traffic.trajectory.pose_at(t)
-    bearing, apart = rng.uniform(0.0, 2.0 * pi), rng.uniform(9_500.0, 14_000.0)
+    east = traffic.tas * sin(here.heading) - path.tas * sin(there.heading)
+    north = traffic.tas * cos(here.heading) - path.tas * cos(there.heading)
+    # across to how they move past each other, mostly: so it is nearest then
+    bearing = np.arctan2(east, north) + rng.choice([-0.5, 0.5]) * pi + rng.normal(0.0, 0.1)
+    apart = rng.uniform(9_500.0, 14_000.0)
     return replace(
         traffic,
         x=traffic.x + there.x - here.x + apart * sin(bearing),
