@@ -685,7 +685,7 @@ export interface Deviation {
   /** Beside the path, from D, from the level [m]; before or behind [s]; of a turn how late [s]. */
   amount: number;
   unit: "m" | "s";
-  /** Since when it is at this level. */
+  /** Since when it is at this level or above. */
   since_s: number;
   message: string;
 }
