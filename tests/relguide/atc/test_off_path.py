@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from relguide.atc.off_path import WINDOW, OffPath, heights, off_path, places
+from relguide.atc.off_path import WINDOW, heights, off_path
 from relguide.atc.track import Track
 from tests.relguide.atc.tracks import seen_on, track_of_legs, tracks
 
@@ -16,16 +16,11 @@ SHARES = st.floats(-0.2, 1.2)
 ASIDE = st.floats(-5_000.0, 5_000.0)
 
 
-def off_at(track: Track, t: float, x: float, y: float) -> tuple[float, float]:
-    off = off_path(track, np.array([t]), np.array([x]), np.array([y]))
-    return float(off.across[0]), float(off.along[0])
-
-
 @given(st.floats(-1_000.0, 1_000.0), st.floats(-25.0, 25.0), st.floats(0.0, 600.0))
 def test_on_a_straight_both_are_what_was_put_in(right: float, early: float, t: float) -> None:
     track = track_of_legs([(300.0, 0.7, 220.0), (300.0, 0.7, 220.0)])
     seen = seen_on(track, t, right=right, early=early)
-    across, along = off_at(track, t, seen.x, seen.y)
+    across, along = off_path(track, t, seen.x, seen.y)
     assert abs(across) == pytest.approx(abs(right), abs=1e-2)  # a root of what is lost in squares
     assert across * right >= 0.0 or abs(right) < 1e-2
     assert along == pytest.approx(early, abs=1e-6)
@@ -37,7 +32,7 @@ def test_the_place_at_that_time_is_within_both(
 ) -> None:
     t = track.begin + share * (track.end - track.begin)
     x, y = track.place(t)
-    across, along = off_at(track, t, x + east, y + north)
+    across, along = off_path(track, t, x + east, y + north)
     assert hypot(east, north) <= hypot(across, track.fastest * along) * (1.0 + 1e-9) + 1e-3
 
 
@@ -48,7 +43,7 @@ def test_the_nearest_place_is_that_of_dense_sampling(
     t = track.begin + share * (track.end - track.begin)
     x, y = track.place(t)
     x, y = x + east, y + north
-    across, along = off_at(track, t, x, y)
+    across, along = off_path(track, t, x, y)
     assert abs(along) <= WINDOW + 1e-9
     near = track.place(t + along)
     least = min(
@@ -67,7 +62,7 @@ def test_turned_shifted_and_delayed_it_is_the_same_and_mirrored_the_other_side(
     t = track.begin + share * (track.end - track.begin)
     x, y = track.place(t)
     x, y = x + east, y + north
-    across, along = off_at(track, t, x, y)
+    across, along = off_path(track, t, x, y)
     s, c = sin(turned), cos(turned)
     moved = replace(
         track,
@@ -75,8 +70,8 @@ def test_turned_shifted_and_delayed_it_is_the_same_and_mirrored_the_other_side(
         x=c * track.x + s * track.y + 7_000.0,
         y=c * track.y - s * track.x - 9_000.0,
     )
-    again = off_at(moved, t + 1_000.0, c * x + s * y + 7_000.0, c * y - s * x - 9_000.0)
-    mirrored = off_at(replace(track, x=-track.x), t, -x, y)
+    again = off_path(moved, t + 1_000.0, c * x + s * y + 7_000.0, c * y - s * x - 9_000.0)
+    mirrored = off_path(replace(track, x=-track.x), t, -x, y)
     for there, sign in ((again, 1.0), (mirrored, -1.0)):
         # two places may be as near; then either may be found
         assert (
@@ -90,24 +85,12 @@ def _distance(track: Track, t: float, x: float, y: float) -> float:
     return hypot(px - x, py - y)
 
 
-def test_many_places_are_measured_as_one_by_one() -> None:
-    track = track_of_legs([(60.0, 0.0, 200.0), (10.0, 0.1, 200.0), (60.0, 0.2, 200.0)])
-    t = np.array([-20.0, 10.0, 65.0, 180.0])
-    x, y = places(track, t)
-    x = x + 300.0
-    off = off_path(track, t, x, y)
-    single = [off_at(track, *one) for one in zip(t, x, y, strict=True)]
-    assert np.allclose(np.array(off).T, single, atol=1e-6)
-    assert isinstance(off, OffPath)
-    assert np.allclose(np.transpose(places(track, t)), [track.place(one) for one in t])
-
-
 def test_heights_are_held_beyond_the_ends_and_unknown_beside_unknown_ones() -> None:
     track = replace(
         track_of_legs([(100.0, 0.0, 200.0), (100.0, 0.0, 200.0), (100.0, 0.0, 200.0)]),
         low=np.array([8_000.0, 9_000.0, -np.inf, -np.inf]),
         high=np.array([8_500.0, 9_500.0, 9_500.0, np.inf]),
     )
-    low, high = heights(track, np.array([-50.0, 50.0, 150.0, 250.0, 400.0]))
-    assert low.tolist() == [8_000.0, 8_500.0, -np.inf, -np.inf, -np.inf]
-    assert high.tolist() == [8_500.0, 9_000.0, 9_500.0, np.inf, np.inf]
+    found = [heights(track, t) for t in (-50.0, 50.0, 150.0, 250.0, 400.0)]
+    assert [low for low, _ in found] == [8_000.0, 8_500.0, -np.inf, -np.inf, -np.inf]
+    assert [high for _, high in found] == [8_500.0, 9_000.0, 9_500.0, np.inf, np.inf]
