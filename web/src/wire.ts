@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-0172f1853750";
+export const PROTOCOL = "relguide-3db98337beca";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -697,6 +697,8 @@ export interface FlightStatus {
   rate: number;
   paused: boolean;
   ended: boolean;
+  outcome: "" | "broken" | "stopped" | "joined" | "time_over" | "recording_over" | "plane_left";
+  started_at: string;
   mode: Mode;
   engagement: Engagement;
   joined: boolean;
@@ -1975,6 +1977,8 @@ export interface Tick {
   paused: boolean;
   ended: boolean;
   documents: Document[];
+  started_at?: string;
+  version?: string;
 }
 
 /** A piece of intent: turn at constant bank. */

@@ -1,6 +1,7 @@
 """Routes of what is on record: find flights, read, replay, export and remove them."""
 
 from collections.abc import AsyncIterator, Iterator
+from datetime import datetime
 from itertools import tee
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -238,7 +239,7 @@ async def replay_flight(
         lambda commands: (from_wire(line) for lines in kept for line in lines),
         rate=wanted.rate,
         paused=wanted.paused,
-        record=lambda _: Recorder(),
+        record=lambda _: Recorder(datetime.fromisoformat(about["started_at"]).timestamp()),
         replay=True,
         owner=owner_of(request),
         anchor=_anchor(about["request"]),
@@ -286,18 +287,21 @@ async def export_flight(
     from relguide_server.records import queries
 
     about = await _find(flight_id, records)
-    origin = _origin(about)
+    origin, asked = _origin(about), about["request"]
+    levels = "situation" not in asked or exports.gives_level([asked, about["commands"]])
     if form not in ("geojson", "czml") and (lat_deg, lon_deg) != (None, None):
         raise Refusal(422, f"lat_deg and lon_deg have no meaning for {form}: leave them out.")
     headers = {"Content-Disposition": f'attachment; filename="flight-{about["id"]}.{form}"'}
     match form:
         case "jsonl" | "csv":
-            lines = _parts(records, origin, about["form"], form)
+            lines = _parts(records, origin, about["form"], form, levels=levels)
             return StreamingResponse(lines, media_type=MEDIA[form], headers=headers)
         case "geojson":
             plane = _plane(about["request"], lat_deg, lon_deg)
             body = await records.read(
-                lambda s: exports.as_geojson(origin, plane, queries.each_chunk(s, flight_id))
+                lambda s: exports.as_geojson(
+                    origin, plane, queries.each_chunk(s, flight_id), levels=levels
+                )
             )
         case "czml":
             plane, title = _plane(about["request"], lat_deg, lon_deg), about["title"]
@@ -307,7 +311,9 @@ async def export_flight(
         case "parquet":
             try:
                 body = await records.read(
-                    lambda s: exports.as_parquet(origin, queries.each_chunk(s, flight_id))
+                    lambda s: exports.as_parquet(
+                        origin, queries.each_chunk(s, flight_id), levels=levels
+                    )
                 )
             except MissingExtra as error:
                 raise Refusal(501, str(error)) from None
@@ -358,7 +364,7 @@ def _origin(about: dict[str, Any]) -> exports.Origin:
 
 
 async def _parts(
-    records: RecordsService, origin: exports.Origin, form: int, kind: str
+    records: RecordsService, origin: exports.Origin, form: int, kind: str, *, levels: bool = True
 ) -> AsyncIterator[bytes]:
     """A file, a chunk at a time."""
     from relguide_server.records import queries
@@ -366,7 +372,7 @@ async def _parts(
     def begin(store: "Store") -> Iterator[bytes]:
         chunks = queries.each_chunk(store, origin.flight_id)
         if kind == "csv":
-            return exports.as_csv(origin, chunks)
+            return exports.as_csv(origin, chunks, levels=levels)
         return exports.as_recording(origin, form, chunks)
 
     parts = await records.read(begin)

@@ -303,6 +303,8 @@ def status_of(flight: LiveFlight, request: Request) -> FlightStatus:
         rate=pace.rate,
         paused=pace.paused,
         ended=flight.over,
+        outcome=flight.outcome,
+        started_at=flight.started_at,
         mode=guidance.mode,
         engagement=guidance.engagement,
         joined=guidance.joined,

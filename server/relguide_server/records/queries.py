@@ -1,7 +1,6 @@
 """What is on record: flights to find and read, and plans asked for."""
 
 from collections.abc import Iterator
-from datetime import UTC, datetime
 from typing import Any
 
 import orjson
@@ -9,6 +8,7 @@ import sqlalchemy as sa
 from sqlalchemy.engine import Connection
 
 from relguide_server.records import database
+from relguide_server.records.clock import date
 from relguide_server.records.entries import RecordSearch
 from relguide_server.records.recording import lines_of
 from relguide_server.records.schema import chunks, commands, flights, plans
@@ -116,12 +116,6 @@ def remove_flight(store: Store, flight_id: str) -> str | None:
             return None if row is None else "flying"
         connection.execute(sa.delete(flights).where(flights.c.id == flight_id))
         return str(row["outcome"])
-
-
-def date(at: float) -> str:
-    """A Unix time [s] as RFC 3339 has it."""
-    text = datetime.fromtimestamp(at, UTC).isoformat(timespec="milliseconds")
-    return text.replace("+00:00", "Z")
 
 
 def _within(query: sa.Select[Any], at: sa.Column[float], search: RecordSearch) -> sa.Select[Any]:
