@@ -32,6 +32,7 @@ from pydantic import (
     model_validator,
 )
 
+from relguide.atc.documents import AtcDocument
 from relguide.contract.commands import Rate
 from relguide.contract.crew_lines import CrewOrderLine
 from relguide.contract.flown_bodies import FlownSituationBody
@@ -162,6 +163,8 @@ PathSegmentModel: Any = _json_type(PathSegment)
 """A piece of a path over the ground."""
 AlternativeModel: Any = _json_type(AnyAlternativeCard)
 """Another path to the slot, and why it is not flown."""
+AtcDocumentModel: Any = _json_type(AtcDocument)
+"""What the controllers' stream brings."""
 ReferenceModel: Any = _json_type(ReferenceCard)
 """What guidance asks of the autopilot."""
 _DOCUMENT: TypeAdapter[BaseModel] = TypeAdapter(DocumentModel)

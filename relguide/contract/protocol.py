@@ -3,6 +3,9 @@
 from hashlib import sha256
 from typing import Any, Literal
 
+from relguide.atc.clearances import Actor, State
+from relguide.atc.documents import DeviationKind, DeviationLevel, ReasonCode
+from relguide.atc.documents import Verdict as AtcVerdict
 from relguide.contract.area_bodies import AreaAnswer, AreaRequest
 from relguide.contract.bodies import SituationBody
 from relguide.contract.commands import Command
@@ -10,6 +13,7 @@ from relguide.contract.crew_lines import CrewOrderLine
 from relguide.contract.intent_bodies import Piece
 from relguide.contract.messages import (
     AlternativeModel,
+    AtcDocumentModel,
     DocumentModel,
     FlightList,
     FlightRequest,
@@ -26,6 +30,7 @@ from relguide.contract.upstream import ControlAnswer, Upstream
 from relguide.flying.aircraft_documents import AlertLevel, AlertState, Spacing
 from relguide.flying.documents import (
     AlertSubject,
+    ClearanceStatus,
     Engagement,
     Fault,
     LeaderChange,
@@ -53,6 +58,10 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "Proof": (Proof, "Why a plan is optimal."),
     "PlanReason": (PlanReason, "Why a new plan was made."),
     "LeaderChange": (LeaderChange, "What is new about the leader."),
+    "ClearanceStatus": (
+        ClearanceStatus,
+        "What became of a manoeuvre that was sent to air traffic control.",
+    ),
     "Spacing": (Spacing, "What a link keeps once joined: a distance, or a time."),
     "AlertLevel": (
         AlertLevel,
@@ -76,6 +85,13 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "OrderLine": (OrderLine, "An order at a flight time."),
     "Command": (Command, "A command to a flight."),
     "Upstream": (Upstream, "What a client may send up a flight's stream."),
+    "Actor": (Actor, "Who brings a clearance from one state to another."),
+    "ClearanceState": (State, "How far a clearance has come."),
+    "ValidationVerdict": (AtcVerdict, "What automation finds of a manoeuvre."),
+    "ReasonCode": (ReasonCode, "Why a manoeuvre is not acceptable, or a clearance ends."),
+    "DeviationKind": (DeviationKind, "In what an aircraft is not where it is cleared to be."),
+    "DeviationLevel": (DeviationLevel, "How far."),
+    "AtcDocument": (AtcDocumentModel, "What the controllers' stream brings."),
 }
 _ROOTS = (
     Tick, ControlAnswer, SituationBody, ScenarioList, FlightList, AreaRequest, AreaAnswer,

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-3db98337beca";
+export const PROTOCOL = "relguide-e301eb92ca36";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -46,6 +46,17 @@ export type LeaderChange =
   | "intent_received"
   | "intent_withdrawn"
   | "intent_broken";
+
+/** What became of a manoeuvre that was sent to air traffic control. */
+export type ClearanceStatus =
+  | "sent"
+  | "standby"
+  | "validated"
+  | "unable"
+  | "wilco"
+  | "flying"
+  | "deviating"
+  | "over";
 
 /** What a link keeps once joined: a distance, or a time. */
 export type Spacing = "distance" | "time";
@@ -113,6 +124,7 @@ export type Document =
   | CommandGiven
   | ControlChanged
   | AssignmentChanged
+  | ClearanceNews
   | PlanUnavailable
   | PlanRefused
   | ModeChanged
@@ -171,6 +183,58 @@ export type Command =
 /** What a client may send up a flight's stream. */
 export type Upstream = TakeControl | StickMove | GiveBack;
 
+/** Who brings a clearance from one state to another. */
+export type Actor = "crew" | "controller" | "service";
+
+/** How far a clearance has come. */
+export type ClearanceState =
+  | "requested"
+  | "validating"
+  | "accepted"
+  | "unable"
+  | "standby"
+  | "wilco"
+  | "flying"
+  | "flown"
+  | "cancelled"
+  | "expired"
+  | "superseded"
+  | "deviated"
+  | "terminated";
+
+/** What automation finds of a manoeuvre. */
+export type ValidationVerdict = "acceptable" | "unable" | "standby";
+
+/** Why a manoeuvre is not acceptable, or a clearance ends. */
+export type ReasonCode =
+  | "separation"
+  | "airspace"
+  | "bank"
+  | "speed"
+  | "leader_disagrees"
+  | "traffic_without_intent"
+  | "stale_picture"
+  | "expired"
+  | "horizon"
+  | "slot_taken"
+  | "conformance"
+  | "crew"
+  | "controller";
+
+/** In what an aircraft is not where it is cleared to be. */
+export type DeviationKind = "across" | "along" | "spacing" | "level" | "turn";
+
+/** How far. */
+export type DeviationLevel = "none" | "caution" | "alert";
+
+/** What the controllers' stream brings. */
+export type AtcDocument =
+  | ClearanceChanged
+  | TrafficSeen
+  | ProbeChanged
+  | ConformanceChanged
+  | Expired;
+
 /** The air as it is, or as it is believed to be. */
 export interface AirBody {
   wind?: WindBody | null;
@@ -206,6 +270,21 @@ export interface AircraftSample {
   lat_deg?: number;
   /** WGS84; there if the situation came with latitudes. */
   lon_deg?: number;
+}
+
+/** A closed part of the sky. */
+export interface AirspaceCard {
+  ident: string;
+  x_m: number[];
+  y_m: number[];
+  /** Its levels and times, e.g. FL200–FL310 until 14:30. */
+  text: string;
+  /** Whether it is closed now. */
+  closed: boolean;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number[];
 }
 
 /**
@@ -253,6 +332,24 @@ export interface AlternativeCard {
   why: string;
   /** Why, in a word. */
   rejected: "slower" | "as_fast" | "faster";
+}
+
+/** A manoeuvre that is acceptable, tried as the one that was asked for was. */
+export interface AlternativeManoeuvre {
+  /** What is different. */
+  change: "later" | "word" | "spacing" | "level";
+  /** In a sentence. */
+  message: string;
+  /** How much later it begins. */
+  begins_s: number;
+  /** Letters of its plan. */
+  word: string;
+  /** D. */
+  spacing_m: number;
+  joins_s: number;
+  /** How near it comes to any aircraft but its leader. */
+  least_m: number;
+  route: TrackCard;
 }
 
 /** A convergence area: lines of equal time-to-converge, and regions of equal word. */
@@ -429,6 +526,74 @@ export interface CellCard {
   lon_deg?: number[];
 }
 
+/** A clearance: what is asked for, what automation finds, what was answered. */
+export interface ClearanceCard {
+  id: string;
+  /** Empty: the one on the earth; else the flight whose sky it is. */
+  sky: string;
+  /** The flight that flies it, if it is one of this service. */
+  flight_id?: string;
+  clearance_type: "capture_then_maintain";
+  /** Who asks. */
+  aircraft: string;
+  /** Behind whom. */
+  traffic_id: string;
+  spacing_type: Spacing;
+  /** D; 0 with spacing by time. */
+  slot_distance_m: number;
+  /** Time behind the leader; 0 with spacing by distance. */
+  spacing_time_s: number;
+  /** From the leader. */
+  min_separation_m: number;
+  /** Letters of the plan; empty where they are not known. */
+  word: string;
+  /** The request in the words of data link. */
+  text: string;
+  state: ClearanceState;
+  /** When it expires if nothing happens; 0 where nothing expires. */
+  due_s: number;
+  joins_s: number;
+  route: TrackCard;
+  leader_route: TrackCard;
+  /** The last one; none before the first. */
+  validation: ValidationCard[];
+  /** Those that stand now. */
+  deviations: Deviation[];
+  /** Oldest first. */
+  history: StateChange[];
+  /** Whether the automation answers in the controller's place, as in a demonstration. */
+  auto_answer: boolean;
+}
+
+/** A clearance is new, or something of it is. */
+export interface ClearanceChanged {
+  kind: "clearance_changed";
+  t_s: number;
+  clearance: ClearanceCard;
+}
+
+/**
+ * What air traffic control says of the manoeuvre that a crew has sent it.
+ *
+ * It comes from outside the flight, which flies the same without it.
+ */
+export interface ClearanceNews {
+  kind: "clearance_news";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  clearance_id: string;
+  clearance: ClearanceStatus;
+  /** caution: something is to be seen to; warning: it is no longer cleared, or far off its path. */
+  level: AlertState;
+  /** Why, in a word: `separation`, `airspace`, `across` …; left out where nothing is wrong. */
+  reason?: string;
+  /** In a sentence. */
+  message: string;
+  /** Whether the automation answered in the controller's place. */
+  automated: boolean;
+}
+
 /** How near a pursuer came to one other aircraft, or to the edge of a cell. */
 export interface ClosestOther {
   ident: string;
@@ -474,6 +639,18 @@ export interface ConflictCard {
   least_m: number;
   /** What is to be kept; 0 of a cell. */
   min_separation_m: number;
+}
+
+/** A deviation begins, changes its level, or ends. */
+export interface ConformanceChanged {
+  kind: "conformance";
+  t_s: number;
+  /** The clearance. */
+  id: string;
+  aircraft: string;
+  /** All that stand now. */
+  deviations: Deviation[];
+  message: string;
 }
 
 /** A contact with d = d_min, or the beginning or end of a boundary arc. */
@@ -529,6 +706,18 @@ export interface CostatesCard {
   separation_costate_s_per_m: number[];
   /** λ_θ. */
   bearing_costate_s_per_deg: number[];
+}
+
+/** How far an aircraft is from what it is cleared to fly, of one kind. */
+export interface Deviation {
+  subject: DeviationKind;
+  level: DeviationLevel;
+  /** Beside the path, from D, from the level [m]; before or behind [s]; of a turn how late [s]. */
+  amount: number;
+  unit: "m" | "s";
+  /** Since when it is at this level. */
+  since_s: number;
+  message: string;
 }
 
 /** The crew switches the flight director. */
@@ -611,6 +800,15 @@ export interface EngagementOrder {
   engagement: Engagement;
 }
 
+/** A clearance was not answered, or not begun, in time. */
+export interface Expired {
+  kind: "expired";
+  t_s: number;
+  /** The clearance. */
+  id: string;
+  message: string;
+}
+
 /**
  * Where a pursuer would join after turns that its leader may begin and has not announced.
  *
@@ -650,6 +848,17 @@ export interface FanJoin {
   lat_deg?: number;
   /** WGS84; there if the situation came with latitudes. */
   lon_deg?: number;
+}
+
+/** Why a manoeuvre is not acceptable. */
+export interface Finding {
+  reason: ReasonCode;
+  /** In the words of data link, e.g. UNABLE DUE TO TRAFFIC BAW12. */
+  text: string;
+  /** In a sentence, with what would help. */
+  message: string;
+  /** Of the aircraft or airspaces that it is about. */
+  idents?: string[];
 }
 
 /** How the flight went: the last document. */
@@ -1341,6 +1550,34 @@ export interface OtherSeparationCard {
   vertical?: VerticalCard[];
 }
 
+/** How near a manoeuvre comes to another aircraft. */
+export interface PairCard {
+  /** The other aircraft. */
+  ident: string;
+  /** When they are closest, as both are expected to fly. */
+  at_s: number;
+  /** How close. */
+  least_m: number;
+  /** They are proved never to be closer while both stay on their tracks. */
+  proved_above_m: number;
+  /** What is added then for what may differ. */
+  bound_m: number;
+  /** What is to be kept. */
+  minimum_m: number;
+  /** Least height between the two then; left out where it is not known. */
+  vertical_m?: number[];
+  /** certain: too close as both are expected to fly; possible: by what may differ. */
+  certainty: "certain" | "possible" | "clear";
+  /** Where the manoeuvre is when they are closest. */
+  own: PlaceAt;
+  /** Where the other aircraft is then. */
+  other: PlaceAt;
+  /** From when they are too close, by what may differ … */
+  since_s: number;
+  /** … until when; both are `at` where they are clear. */
+  until_s: number;
+}
+
 /** A place and a heading along a path, over the ground. */
 export interface PathPoint {
   /** From the beginning of the path. */
@@ -1369,6 +1606,19 @@ export interface PilotBody {
   remnant_share?: number;
   threshold_deg?: number;
   reaction_s?: number;
+}
+
+/** A place at a time. */
+export interface PlaceAt {
+  t_s: number;
+  /** East. */
+  x_m: number;
+  /** North. */
+  y_m: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number;
 }
 
 /** A plan as outsiders read it: the answer of REST, of the command line, and of the display. */
@@ -1525,6 +1775,15 @@ export interface PolygonCell {
   polygon: (number[] | GeodeticCorner)[];
   velocity_mps?: number[];
   growth_mps?: number;
+}
+
+/** What is accepted or flown was validated again, and the verdict is another. */
+export interface ProbeChanged {
+  kind: "probe_changed";
+  t_s: number;
+  /** The clearance. */
+  id: string;
+  validation: ValidationCard;
 }
 
 /** The pursuer will join at another time than was last said, on the path that it flies. */
@@ -1829,6 +2088,14 @@ export interface SituationFlightRequest {
   flown_intent?: IntentPiece[] | null;
 }
 
+/** A sky: one plane, one clock. Flights without a place on the earth have one each. */
+export interface SkyCard {
+  /** Empty: the one on the earth. */
+  id: string;
+  title: string;
+  airspaces: AirspaceCard[];
+}
+
 /** With another D there is a plan. */
 export interface SlotDistanceRemedy {
   /** Another D. */
@@ -1870,6 +2137,19 @@ export interface SpeedOrder {
   t_s: number;
   ident?: string;
   leader_tas_mps: number;
+}
+
+/** A step in the life of a clearance. */
+export interface StateChange {
+  state: ClearanceState;
+  t_s: number;
+  /** Wall clock, UTC, ISO 8601. */
+  at: string;
+  by: Actor;
+  /** A `ReasonCode`, where there is one. */
+  reason?: string;
+  /** In a sentence, or in the words of data link. */
+  message: string;
 }
 
 /**
@@ -1981,6 +2261,55 @@ export interface Tick {
   version?: string;
 }
 
+/** A track in columns of equal length: straight lines between knots. */
+export interface TrackCard {
+  t_s: number[];
+  /** East. */
+  x_m: number[];
+  /** North. */
+  y_m: number[];
+  /** Pressure altitude in the middle of what is possible; left out where it is not known. */
+  altitude_m?: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number[];
+}
+
+/** An aircraft of the picture, for a controller's label. */
+export interface TrafficCard {
+  ident: string;
+  /** East. */
+  x_m: number;
+  /** North. */
+  y_m: number;
+  /** Direction of its ground velocity. */
+  track_deg: number;
+  ground_speed_mps: number;
+  /** Pressure altitude; left out where it is not known. */
+  altitude_m?: number;
+  climb_mps?: number;
+  /** How long ago it was seen. */
+  age_s: number;
+  /** Whether its intent is known. */
+  intends: boolean;
+  /** Who reports it: a flight of this service, `traffic` (put by REST), or a feed. */
+  source: string;
+  flight_id?: string;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number;
+}
+
+/** A sky at one instant: once a second. */
+export interface TrafficSeen {
+  kind: "traffic";
+  t_s: number;
+  sky: SkyCard;
+  aircraft: TrafficCard[];
+}
+
 /** A piece of intent: turn at constant bank. */
 export interface TurnPiece {
   turn_to_heading_deg: number;
@@ -2046,6 +2375,25 @@ export interface UnsafeAlternativeCard {
   why: string;
   /** It loses the separation. */
   rejected: "separation";
+}
+
+/** What automation finds of a manoeuvre. It advises: the controller decides. */
+export interface ValidationCard {
+  verdict: ValidationVerdict;
+  /** None where it is acceptable. */
+  findings: Finding[];
+  /** Those that matter, least margin first. */
+  pairs: PairCard[];
+  /** Acceptable ones, soonest first; only where it is not. */
+  alternatives: AlternativeManoeuvre[];
+  /** It holds until then if nobody leaves what conformance allows. */
+  valid_until_s: number;
+  /** When it was computed. */
+  computed_s: number;
+  /** How old the picture was that it was computed on. */
+  picture_as_of_s: number;
+  /** How many others were looked at. */
+  aircraft: number;
 }
 
 /** A time in which height keeps two aircraft apart: their separation does not count then. */
