@@ -131,6 +131,7 @@ def create_app(
         description=DESCRIPTION,
         lifespan=lifespan,
         generate_unique_id_function=name_of,
+        openapi_url=None,  # `describe` shows it
         docs_url=None,
         redoc_url=None,
         telemetry=NO_TELEMETRY,
