@@ -26,6 +26,7 @@ from relguide_server.http.bodies import Bodies, json_answer
 from relguide_server.http.body_limit import BodyLimit
 from relguide_server.http.errors import install_handlers
 from relguide_server.http.head_requests import HeadAsGet
+from relguide_server.http.idempotency import Idempotency
 from relguide_server.http.metrics import Metrics
 from relguide_server.http.openapi import describe, name_of, response, schema_of
 from relguide_server.http.pages import Page
@@ -116,6 +117,7 @@ def create_app(
         fleet.start()
         workers.start(partial(preparation.can_plan_by, name), partial(load, name))
         yield
+        await app.state.idempotency.stop()
         await workers.stop()
         await fleet.stop()
         await asyncio.to_thread(records.stop)
@@ -129,11 +131,13 @@ def create_app(
         description=DESCRIPTION,
         lifespan=lifespan,
         generate_unique_id_function=name_of,
+        openapi_url=None,  # `describe` shows it
         docs_url=None,
         redoc_url=None,
         telemetry=NO_TELEMETRY,
     )
     app.state.workers, app.state.bodies = workers, Bodies()
+    app.state.idempotency = Idempotency()
     app.state.plan_service = PlanService(
         name, planner, quick=quick, preparation=preparation, workers=workers, metrics=metrics
     )

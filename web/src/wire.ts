@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-20360becba2a";
+export const PROTOCOL = "relguide-1c7f2fd5b4d6";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -910,6 +910,8 @@ export interface FlightStatus {
   rate: number;
   paused: boolean;
   ended: boolean;
+  outcome: "" | "broken" | "stopped" | "joined" | "time_over" | "recording_over" | "plane_left";
+  started_at: string;
   mode: Mode;
   engagement: Engagement;
   joined: boolean;
@@ -2259,6 +2261,8 @@ export interface Tick {
   paused: boolean;
   ended: boolean;
   documents: Document[];
+  started_at?: string;
+  version?: string;
 }
 
 /** A track in columns of equal length: straight lines between knots. */

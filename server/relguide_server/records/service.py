@@ -75,10 +75,11 @@ class RecordsService:
 
     def begin(self, card: FlightCard) -> Recorder:
         """Record a flight from now on."""
+        now = self._clock.now()
         if self._writer is None:
-            return Recorder()
-        self._writer.put(Began(card, self._clock.now()))
-        return FlightRecorder(card.id, self._writer, self._clock)
+            return Recorder(now)
+        self._writer.put(Began(card, now))
+        return FlightRecorder(card.id, self._writer, self._clock, started_at=now)
 
     async def saved(self) -> bool:
         """Wait until all that was begun and commanded so far is saved; false if it cannot be."""
