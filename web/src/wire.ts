@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-ca90ad843574";
+export const PROTOCOL = "relguide-86b0d169894e";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -875,6 +875,7 @@ export interface FlightEnded {
 /** All flights. */
 export interface FlightList {
   flights: FlightStatus[];
+  missing?: string[];
 }
 
 /** All that is known before the flight: the first document. */
