@@ -36,15 +36,23 @@ pytestmark = pytest.mark.skipif(
 )
 
 
+class Service(ThreadingHTTPServer):
+    """One that answers for a service."""
+
+    status = 200
+
+
 class Echo(BaseHTTPRequestHandler):
     """Answers with the name of the service that it stands for, and what it was sent."""
+
+    server: Service
 
     def do_GET(self) -> None:
         sent = self.rfile.read(int(self.headers.get("Content-Length") or 0)).decode()
         name = NAMES[str(self.server.server_address[0])]
         said = {"name": name, "method": self.command, "path": self.path, "body": sent}
         body = json.dumps(said | {"headers": dict(self.headers.items())}).encode()
-        self.send_response(200)
+        self.send_response(self.server.status)
         self.send_header("Content-Length", str(len(body)))
         self.end_headers()
         self.wfile.write(body)
@@ -61,7 +69,7 @@ class Proxy:
 
     http: int
     https: int
-    services: dict[str, ThreadingHTTPServer]
+    services: dict[str, Service]
     names: Path
 
     def ask(self, path: str, method: str = "GET", **options: Any) -> dict[str, Any]:
@@ -85,7 +93,7 @@ def begin(stack: ExitStack, folder: Path, *, tls: bool = False) -> Proxy:
     resolving = free_port(socket.SOCK_DGRAM)
     services = {}
     for address in NAMES:
-        services[address] = ThreadingHTTPServer((address, served), Echo)
+        services[address] = Service((address, served), Echo)
         threading.Thread(target=services[address].serve_forever, daemon=True).start()
         stack.callback(services[address].server_close)
         stack.callback(services[address].shutdown)
@@ -209,7 +217,7 @@ def test_who_asks_too_often_is_refused(proxy: Proxy) -> None:
     with httpx.Client(base_url=f"http://127.0.0.1:{proxy.http}") as client:
         statuses = [client.get("/healthz").status_code for _ in range(600)]
     assert statuses[0] == 200
-    assert 429 in statuses
+    assert 503 in statuses
 
 
 def test_a_process_that_is_gone_is_not_missed(tmp_path: Path) -> None:
@@ -225,6 +233,18 @@ def test_a_process_that_is_gone_is_not_missed(tmp_path: Path) -> None:
             )  # fmt: skip
             assert proxy.ask("/api/v1/flights/a-1")["name"] == "flights-b"
             assert proxy.ask("/api/v1/plans", "POST", content=b"{}")["name"] == "planner"
+
+
+def test_what_one_is_too_full_for_the_other_does_unless_it_was_asked_for(tmp_path: Path) -> None:
+    with ExitStack() as stack:
+        proxy = begin(stack, tmp_path)
+        proxy.services["127.0.0.2"].status = 429
+        for _ in range(10):
+            started = proxy.send("/api/v1/flights", "POST", content=b"{}")
+            assert (started.status_code, started.json()["name"]) == (200, "flights-b")
+        asked = {"Relguide-Process": "a"}
+        assert proxy.send("/api/v1/flights", "POST", headers=asked).status_code == 429
+        assert proxy.send("/api/v1/flights/a-1/commands", "POST").status_code == 429
 
 
 def test_a_name_that_moves_is_found_again(tmp_path: Path) -> None:
