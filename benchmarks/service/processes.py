@@ -1,10 +1,10 @@
 """How many flights does a process fly in time, and how many do two?
 
-    python -m benchmarks.service.processes --seconds 30
+    python -m benchmarks.service.processes --seconds 30 1x100 1x200 2x400
 
-For each pair of counts: all flights fly `fig_6b` at a rate of 1 with guidance engaged, on record.
-`rate` is the flight time flown of that asked for, `ticks` what each of ten watchers a process gets
-a second, `processor` what each process takes of one core, without its worker.
+For each pair, of processes and flights in all: the flights fly `fig_6b` at a rate of 1 with guidance
+engaged, on record. `rate` is the flight time flown of that asked for, `ticks` what each of ten
+watchers a process gets a second, `processor` what each process takes of one core, without its worker.
 """
 
 import argparse
@@ -23,8 +23,6 @@ from benchmarks.options import positive
 from benchmarks.service.service import Service, running
 from benchmarks.service.speed import watching
 
-PAIRS = ((1, 100), (1, 200), (1, 300), (2, 400))
-"""Processes, and flights in all."""
 WATCHERS = 10
 """Streams that are watched in each process."""
 SETTLING = 10.0
@@ -35,21 +33,23 @@ def main(arguments: list[str] | None = None) -> int:
     """Measure and print lines of CSV."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--seconds", type=positive, default=30, help="of each measurement")
+    parser.add_argument("pairs", nargs="+", metavar="PROCESSESxFLIGHTS")
     given = parser.parse_args(arguments)
     console = Console(width=110)
     console.print("processes,flights,rate,ticks a second,processor each,memory each")
-    for processes, flights in PAIRS:
-        figures = uvloop.run(measure(processes, flights, given))
+    for pair in given.pairs:
+        processes, flights = (positive(count) for count in pair.split("x"))
+        figures = uvloop.run(measure(processes, flights, given.seconds))
         console.print(",".join((str(processes), str(flights), *figures)))
     return 0
 
 
-async def measure(processes: int, flights: int, given: argparse.Namespace) -> list[str]:
+async def measure(processes: int, flights: int, lasting: int) -> list[str]:
     """The figures of a row."""
     each = flights // processes
     async with AsyncExitStack() as stack:
         services = [
-            stack.enter_context(running(process="abcdef"[k], max_flights=each, workers=1))
+            stack.enter_context(running(process="abcdef"[k], max_flights=4 * each, workers=1))
             for k in range(processes)
         ]
         ticks = [
@@ -59,7 +59,7 @@ async def measure(processes: int, flights: int, given: argparse.Namespace) -> li
         await asyncio.sleep(SETTLING)
         began, before = perf_counter(), [_figures(one) for one in services]
         counted = [[*heard] for heard in ticks]
-        await asyncio.sleep(given.seconds)
+        await asyncio.sleep(lasting)
         seconds, after = perf_counter() - began, [_figures(one) for one in services]
         passed = [new - old for all_new, all_old in zip(ticks, counted, strict=True)
                   for new, old in zip(all_new, all_old, strict=True)]  # fmt: skip
