@@ -2,9 +2,9 @@
 
     python -m benchmarks.service.processes --seconds 30 1x100 1x200 2x400
 
-For each pair, of processes and flights in all: the flights fly `fig_6b` at a rate of 1 with guidance
-engaged, on record. `rate` is the flight time flown of that asked for, `ticks` what each of ten
-watchers a process gets a second, `processor` what each process takes of one core, without its worker.
+For each pair, of processes and flights in all: the flights fly `fig_6b` at a rate of 1, engaged and
+on record. `rate` is the flight time flown of that asked for, `ticks` what each of ten watchers a
+process gets a second, `processor` what each process takes of one core, without its worker.
 """
 
 import argparse
