@@ -461,4 +461,6 @@ class FlightList(Strict):
     """All flights."""
 
     flights: list[FlightStatus]
-    """In the order they were started."""
+    """In the order they were started; of several processes, one after the other."""
+    missing: list[str] = Field(default_factory=list)
+    """Letters of the processes that did not answer; left out if all did."""

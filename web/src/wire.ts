@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-1c7f2fd5b4d6";
+export const PROTOCOL = "relguide-73b0e04dece8";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -879,6 +879,7 @@ export interface FlightEnded {
 /** All flights. */
 export interface FlightList {
   flights: FlightStatus[];
+  missing?: string[];
 }
 
 /** All that is known before the flight: the first document. */

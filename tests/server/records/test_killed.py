@@ -189,3 +189,21 @@ def test_tables_of_a_newer_version_are_left_alone(url: str) -> None:
     with pytest.raises(Unavailable, match="newer version"):
         home.store()
     home.close()
+
+
+def test_what_a_start_would_do_is_said_and_not_done(url: str) -> None:
+    where = database.url_of(url, Path("unused"))
+    first = database.outlook(where)
+    assert "at the start" in first
+    assert database.outlook(where) == first
+    for revision, said in (("0001", f"tables of revision 0001, brought up to {HEAD}"),
+                           ("head", f"the tables of this version (revision {HEAD})")):  # fmt: skip
+        alembic_to(url, revision).dispose()
+        assert said in database.outlook(where)
+        assert said in database.outlook(where)
+    engine = alembic_to(url, "head")
+    with engine.begin() as connection:
+        connection.execute(sa.text("UPDATE alembic_version SET version_num = '9999'"))
+    engine.dispose()
+    with pytest.raises(Unavailable, match="newer version"):
+        database.outlook(where)
