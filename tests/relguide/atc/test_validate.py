@@ -211,7 +211,8 @@ def test_what_is_over_is_expired():
 
 
 def test_a_join_beyond_the_horizon_is_said():
-    far, leader = manoeuvre_on(drawn_path(np.random.default_rng(2), joins_after=1_500.0))
+    path = drawn_path(np.random.default_rng(2), joins_after=1_500.0)
+    far, leader = manoeuvre_on(path, d_min=0.0)
     (finding,) = validate(far, picture_of(leader), NOW).findings
     assert finding.reason == "horizon"
     assert "traffic is predicted for 20 min" in finding.message
