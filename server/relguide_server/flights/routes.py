@@ -56,6 +56,7 @@ from relguide_server.flights.catalogue import CatalogueOf
 from relguide_server.flights.control import HELD, MODELLED, MOST_RATE, TOO_FAST
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
+from relguide_server.flights.peers import Peers
 from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
 from relguide_server.http.access import expect_owner, may_command, owner_of
 from relguide_server.http.bodies import (
@@ -190,9 +191,16 @@ async def start_flight(
     responses=response(200, "All flights.", schema_of(FlightList)),
 )
 async def list_flights(request: Request, fleet: FleetOf) -> Response:
-    """Those in the air, and those that ended a short while ago."""
-    statuses = [status_of(flight, request) for flight in fleet]
-    return json_answer(FlightList(flights=statuses).model_dump())
+    """Those in the air, and those that ended a short while ago; of all processes, if several fly.
+
+    Which of these did not answer, `missing` says, if any. `Relguide-Process: a` asks for those of
+    process a alone.
+    """
+    peers: Peers = request.app.state.peers
+    others, missing = await peers.flights(request)
+    own = [status_of(flight, request) for flight in fleet]
+    listed = FlightList(flights=own + others, missing=missing)
+    return json_answer(listed.model_dump(exclude=None if missing else {"missing"}))
 
 
 @router.get(

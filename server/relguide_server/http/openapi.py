@@ -35,6 +35,8 @@ TAGS = {
     "plans": "Plans with their proof, of one situation or of many.",
     "areas": "How long it takes to converge, from all places round a leader.",
     "flights": "Flights that are watched and commanded, and flights flown to their end at once.",
+    "clearances": "Manoeuvres that crews ask air traffic control for, and what becomes of them.",
+    "picture": "Traffic and closed airspaces that others report.",
     "records": "What was flown and planned: to search, replay, export and remove.",
     "service": "Whether the service is well.",
 }
@@ -97,7 +99,12 @@ def request_body(schema: dict[str, Any], example: object) -> dict[str, Any]:
 
 
 def response(
-    status: int, description: str, schema: dict[str, Any], *, headers: Iterable[str] = ()
+    status: int,
+    description: str,
+    schema: dict[str, Any],
+    *,
+    headers: Iterable[str] = (),
+    media: str = JSON,
 ) -> dict[int | str, dict[str, Any]]:
     """One entry of the `responses=` of a route.
 
@@ -106,8 +113,9 @@ def response(
         description: a sentence.
         schema: of its body.
         headers: of `HEADERS`, beyond those that all answers have.
+        media: type of its body.
     """
-    said = {"description": description, "content": {JSON: {"schema": schema}}}
+    said = {"description": description, "content": {media: {"schema": schema}}}
     return {status: {**said, "headers": header_references(headers)}}
 
 

@@ -50,6 +50,12 @@ KINDS = {
     "too-many-flights": Kind(
         429, "Too many flights", "End a flight, or try again after `Retry-After` seconds."
     ),
+    "too-many-clearances": Kind(
+        429, "Too many clearances", "Cancel one, or wait until one is over."
+    ),
+    "too-many-sources": Kind(
+        429, "Too many sources", "Take back what one of them said: `DELETE`, with its name."
+    ),
     "mistake": Kind(
         500, "A mistake of the server", "Its log has the details, by the answer's `X-Request-ID`."
     ),

@@ -13,7 +13,7 @@ from relguide_server.records.clock import date
 from relguide_server.records.cursors import cursor_of
 from relguide_server.records.entries import Place, RecordSearch
 from relguide_server.records.recording import lines_of
-from relguide_server.records.schema import chunks, commands, flights, plans
+from relguide_server.records.schema import chunks, clearances, commands, flights, plans
 from relguide_server.records.store import Store
 
 
@@ -99,6 +99,29 @@ def find_plans(store: Store, search: RecordSearch) -> Found:
     if search.outcome is not None:
         query = query.where(plans.c.status == search.outcome)
     return _find(store, search, query, (plans.c.at, plans.c.run, plans.c.number), _plan_of)
+
+
+def find_clearances(store: Store, state: str | None, most: int) -> list[dict[str, Any]]:
+    """Clearances as the API shows them, the newest first.
+
+    Args:
+        store: where.
+        state: of each; any if left out.
+        most: how many at most.
+    """
+    query = sa.select(clearances.c.card).order_by(clearances.c.at.desc(), clearances.c.id)
+    if state is not None:
+        query = query.where(clearances.c.state == state)
+    with database.reading(store.engine) as connection:
+        return [orjson.loads(card) for card in connection.scalars(query.limit(most))]
+
+
+def read_clearance(store: Store, clearance_id: str) -> dict[str, Any] | None:
+    """A clearance as the API shows it; `None` if there is none."""
+    query = sa.select(clearances.c.card).where(clearances.c.id == clearance_id)
+    with database.reading(store.engine) as connection:
+        card = connection.scalar(query)
+    return None if card is None else orjson.loads(card)
 
 
 def remove_flight(store: Store, flight_id: str) -> str | None:

@@ -28,7 +28,7 @@ from tests.server.records.test_writer import row_of, wait_for
 @pytest.mark.parametrize("after", [0.05, 0.4])
 def test_what_was_acknowledged_survives_a_kill(url: str, after: float) -> None:
     lost = kill_once(url, "killed", after)
-    assert (lost.flights, lost.commands, lost.documents) == (0, 0, 0)
+    assert (lost.flights, lost.commands, lost.documents, lost.clearances) == (0, 0, 0, 0)
     assert lost.acknowledged >= 4
 
 
@@ -189,3 +189,21 @@ def test_tables_of_a_newer_version_are_left_alone(url: str) -> None:
     with pytest.raises(Unavailable, match="newer version"):
         home.store()
     home.close()
+
+
+def test_what_a_start_would_do_is_said_and_not_done(url: str) -> None:
+    where = database.url_of(url, Path("unused"))
+    first = database.outlook(where)
+    assert "at the start" in first
+    assert database.outlook(where) == first
+    for revision, said in (("0001", f"tables of revision 0001, brought up to {HEAD}"),
+                           ("head", f"the tables of this version (revision {HEAD})")):  # fmt: skip
+        alembic_to(url, revision).dispose()
+        assert said in database.outlook(where)
+        assert said in database.outlook(where)
+    engine = alembic_to(url, "head")
+    with engine.begin() as connection:
+        connection.execute(sa.text("UPDATE alembic_version SET version_num = '9999'"))
+    engine.dispose()
+    with pytest.raises(Unavailable, match="newer version"):
+        database.outlook(where)
