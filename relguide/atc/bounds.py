@@ -57,8 +57,14 @@ def largest_turn(track: Track, within: Second) -> Radian:
     return most
 
 
-def stray_of(seen: Seen, settings: AtcSettings) -> Stray:
-    """How far another aircraft may be from the track that it is expected to fly."""
+def stray_of(seen: Seen, settings: AtcSettings, own: Metre) -> Stray:
+    """How far another aircraft and one's own may be from their tracks, together.
+
+    Args:
+        seen: the other.
+        settings: the thresholds.
+        own: how far one's own may be [m].
+    """
     if seen.cleared and seen.path is not None:
-        return Stray(cleared_stray(seen.path, settings), 0.0, seen.t)
-    return Stray(settings.traffic_bound, settings.traffic_growth, seen.t)
+        return Stray(own + cleared_stray(seen.path, settings), 0.0, seen.t)
+    return Stray(own + settings.traffic_bound, settings.traffic_growth, seen.t)

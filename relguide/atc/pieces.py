@@ -94,7 +94,7 @@ class Pieces(NamedTuple):
 
 def columns_of(tracks: Sequence[Track], begin: Second, end: Second) -> Columns:
     """Tracks one behind another, with times from `begin` on."""
-    lengths = [len(track.t) for track in tracks]
+    lengths = [track.t.size for track in tracks]
     first = np.concatenate(([0], np.cumsum(lengths))).astype(np.intp)
     t = np.concatenate([track.t for track in tracks]) - begin
     x = np.concatenate([track.x for track in tracks])

@@ -15,7 +15,6 @@ The wind moves all alike, so tracks over the ground suffice.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import inf, nan
 from typing import NamedTuple
 
@@ -33,8 +32,7 @@ SHOWN: Metre = 5.0 * NM
 """Others that come no nearer than this beyond their bound are left out [m]."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Other:
+class Other(NamedTuple):
     """Another aircraft, and how far one is to keep from it."""
 
     track: Track

@@ -30,6 +30,8 @@ from relguide.units import FT, NM, Metre, MetrePerSecond, Second
 
 CHORD: Metre = 2.0
 """An arc's chords stray from it by no more than this [m]."""
+COARSE: Metre = 10.0
+"""The same of other traffic: a tenth of a percent of its minimum [m]."""
 BRAKING: MetrePerSecond = 0.6
 """No aircraft brakes, or gathers speed, faster than this [m/s²]."""
 STEADY: MetrePerSecond = 0.05
@@ -102,6 +104,7 @@ def path_track(
     until: Second,
     wind: Wind = CALM,
     heights: Heights = UNKNOWN,
+    chord: Metre = CHORD,
 ) -> Track:
     """The track of a path that is flown from a time on; past its end it goes on straight.
 
@@ -111,11 +114,12 @@ def path_track(
         until: where the track ends, after `start` [s].
         wind: moves the air mass.
         heights: the altitude, from `start` on.
+        chord: how far the chords of its arcs may stray from them [m].
     """
     times, error, begins = [0.0], 0.0, 0.0
     for duration, rate in trajectory.bends():
         bend = trajectory.tas * abs(rate)
-        parts = max(ceil(duration * sqrt(bend / (8.0 * CHORD))), 1)
+        parts = max(ceil(duration * sqrt(bend / (8.0 * chord))), 1)
         if duration / parts > 1e-6:  # a shorter one is a rounding
             times += [begins + duration * (k + 1) / parts for k in range(parts)]
             error = max(error, bend * (duration / parts) ** 2 / 8.0)
@@ -137,8 +141,14 @@ def intent_track(
         until: where the track ends, after `start` [s].
         wind: moves the air mass.
     """
-    heights = heights_of(aircraft)
-    return path_track(aircraft.trajectory, start=start, until=until, wind=wind, heights=heights)
+    return path_track(
+        aircraft.trajectory,
+        start=start,
+        until=until,
+        wind=wind,
+        heights=heights_of(aircraft),
+        chord=COARSE if isinstance(aircraft, Traffic) else CHORD,
+    )
 
 
 def plan_track(plan: Plan, *, start: Second, settings: AtcSettings | None = None) -> Track:
@@ -179,25 +189,38 @@ def straight_track(seen: Seen, *, until: Second, settings: AtcSettings | None = 
         settings: the buffers.
     """
     settings = settings or AtcSettings()
-    times = np.array([seen.t, max(until, seen.t + 1.0)])
-    span = times - seen.t
-    east, north = sin(seen.track) * seen.ground_speed, cos(seen.track) * seen.ground_speed
-    low, high = np.full(2, -inf), np.full(2, inf)
-    if seen.altitude is not None and abs(seen.climb) <= CLIMBS:
-        level = round(seen.altitude / THOUSAND) * THOUSAND
-        on_it = abs(level - seen.altitude) <= settings.level_buffer
-        low = high = np.full(2, level if on_it else seen.altitude)
-    elif seen.altitude is not None:
-        farthest = seen.altitude + seen.climb * (1.0 + RATE_TOLERANCE) * span
-        low = np.minimum(seen.altitude, farthest) - _buffer(settings, seen.climb < 0.0)
-        high = np.maximum(seen.altitude, farthest) + _buffer(settings, seen.climb > 0.0)
+    t, x, y = seen.t, seen.x, seen.y
+    span = max(until - t, 1.0)
+    way = seen.ground_speed * span
+    (low, low_then), (high, high_then) = _straight_heights(seen, span, settings)
     return Track(
-        t=times, x=seen.x + east * span, y=seen.y + north * span, low=low, high=high, error=0.0
+        t=np.array((t, t + span)),
+        x=np.array((x, x + way * sin(seen.track))),
+        y=np.array((y, y + way * cos(seen.track))),
+        low=np.array((low, low_then)),
+        high=np.array((high, high_then)),
+        error=0.0,
     )
 
 
-def _buffer(settings: AtcSettings, ahead: bool) -> Metre:
-    return settings.climb_buffer if ahead else settings.level_buffer
+def _straight_heights(
+    seen: Seen, span: Second, settings: AtcSettings
+) -> tuple[tuple[Metre, Metre], tuple[Metre, Metre]]:
+    """How low it may be when seen and some time on, and how high [m]."""
+    altitude = seen.altitude
+    if altitude is None:
+        return (-inf, -inf), (inf, inf)
+    if abs(seen.climb) <= CLIMBS:
+        level = round(altitude / THOUSAND) * THOUSAND
+        flown = level if abs(level - altitude) <= settings.level_buffer else altitude
+        return (flown, flown), (flown, flown)
+    then = altitude + seen.climb * (1.0 + RATE_TOLERANCE) * span
+    below = settings.climb_buffer if seen.climb < 0.0 else settings.level_buffer
+    above = settings.climb_buffer if seen.climb > 0.0 else settings.level_buffer
+    return (
+        (altitude - below, min(altitude, then) - below),
+        (altitude + above, max(altitude, then) + above),
+    )
 
 
 def followed_track(track: Track, leader: Track, until: Second) -> Track:
@@ -267,15 +290,17 @@ def _at_heights(
         low, high = heights.bounds(0.0)
         level = np.ones(len(t))
         return Track(t=t, x=x, y=y, low=level * low, high=level * high, error=error)
-    cuts = np.concatenate((knots - _JUMP, knots, knots + _JUMP))
-    times = np.union1d(t, cuts[(cuts > t[0]) & (cuts < t[-1])])
-    bounds = np.array([_widest(heights, time - start) for time in times.tolist()])
+    about = [knots + k * _JUMP for k in (-2, -1, 0, 1, 2)]
+    cuts = np.concatenate(([t[0]], *about, [t[-1]]))
+    cuts = np.unique(cuts[(cuts >= t[0]) & (cuts <= t[-1])])
+    times = np.union1d(t, cuts)
+    bounds = np.array([_widest(heights, cut - start) for cut in cuts.tolist()])
     return Track(
         t=times,
         x=np.interp(times, t, x),
         y=np.interp(times, t, y),
-        low=bounds[:, 0],
-        high=bounds[:, 1],
+        low=np.interp(times, cuts, bounds[:, 0]),
+        high=np.interp(times, cuts, bounds[:, 1]),
         error=error,
     )
 

@@ -6,11 +6,11 @@ thresholds of conformance (`AtcSettings`), as these are what it adds to every tr
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import inf, nan
+from typing import NamedTuple
 
 from relguide.atc.airspaces import entries
-from relguide.atc.bounds import NONE, Stray, cleared_stray, stray_of
+from relguide.atc.bounds import NONE, cleared_stray, stray_of
 from relguide.atc.documents import Finding, PairCard, PlaceAt, ReasonCode, ValidationCard, Verdict
 from relguide.atc.leading import disagreement, lost_place
 from relguide.atc.phraseology import STANDBY, spacing_text, unable_text
@@ -27,8 +27,7 @@ CLEAR_SHOWN = 8
 """So many of those that are clear are shown beside those that are not."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Known:
+class _Known(NamedTuple):
     """Another aircraft as it was probed."""
 
     seen: Seen
@@ -104,12 +103,11 @@ def _known(
             other = Other(track=track, minimum=manoeuvre.min_separation, stray=NONE)
             known.append(_Known(seen, other, leads=True, intends=True))
             continue
-        stray = stray_of(seen, settings)
         track = seen.path or straight_track(seen, until=end, settings=settings)
         other = Other(
             track=track,
             minimum=settings.minimum,
-            stray=Stray(stray.at_first + own_stray, stray.growth, stray.since),
+            stray=stray_of(seen, settings, own_stray),
             fan=settings.fan if seen.path is None else nan,
         )
         known.append(_Known(seen, other, leads=False, intends=seen.path is not None))
