@@ -63,7 +63,7 @@ def validate(
     pairs = [(_pair(own, known, approach), approach) for approach in approaches]
     findings = (
         *_stale(picture, now, settings),
-        *_expired(manoeuvre, now, settings),
+        *_expired(manoeuvre, now),
         *_beyond_horizon(manoeuvre, now, settings),
         *_separation(pairs, known, manoeuvre, now),
         *_airspace(manoeuvre, picture, begin, end, now, settings),
@@ -84,9 +84,9 @@ def validate(
 
 
 def horizon(manoeuvre: Manoeuvre, now: Second, settings: AtcSettings) -> tuple[Second, Second]:
-    """From when until when a manoeuvre is looked at [s]."""
+    """From when until when a manoeuvre is looked at [s]; once it has joined, ever further on."""
     begin = max(now, manoeuvre.path.begin)
-    return begin, min(manoeuvre.joins + settings.followed, now + settings.horizon)
+    return begin, min(max(manoeuvre.joins, now) + settings.followed, now + settings.horizon)
 
 
 def _known(
@@ -206,7 +206,7 @@ def _performance(manoeuvre: Manoeuvre, end: Second, settings: AtcSettings) -> It
             f"Its turns need {bank / DEG:.0f}° of bank, and {manoeuvre.ident} has {has / DEG:.0f}°."
             " A plan for that bank would help.",
         )
-    lost = lost_place(manoeuvre, end, settings)
+    lost = lost_place(manoeuvre, min(end, manoeuvre.path.end), settings)
     if lost:
         yield _finding(
             "speed",
@@ -247,13 +247,11 @@ def _stale(picture: Picture, now: Second, settings: AtcSettings) -> Iterator[Fin
         )
 
 
-def _expired(manoeuvre: Manoeuvre, now: Second, settings: AtcSettings) -> Iterator[Finding]:
-    over = manoeuvre.joins + settings.followed
-    if now >= min(over, manoeuvre.path.end):
+def _expired(manoeuvre: Manoeuvre, now: Second) -> Iterator[Finding]:
+    ended = now - manoeuvre.path.end
+    if ended >= 0.0:
         yield _finding(
-            "expired",
-            f"Its path ended {now - min(over, manoeuvre.path.end):.0f} s ago. "
-            "A plan that begins now would help.",
+            "expired", f"Its path ended {ended:.0f} s ago. A plan that begins now would help."
         )
 
 
