@@ -55,8 +55,9 @@ def validate(
     """
     settings = settings or AtcSettings()
     begin, end = horizon(manoeuvre, now, settings)
-    known = _known(manoeuvre, picture, end, settings)
     own = manoeuvre.path
+    stray = cleared_stray(own, settings)
+    known = _known(manoeuvre, picture, end, stray, settings)
     approaches = probe(
         own, [one.other for one in known], begin=begin, end=end, vertical=settings.vertical_minimum
     )
@@ -66,7 +67,7 @@ def validate(
         *_expired(manoeuvre, now),
         *_beyond_horizon(manoeuvre, now, settings),
         *_separation(pairs, known, manoeuvre, now),
-        *_airspace(manoeuvre, picture, begin, end, now, settings),
+        *_airspace(manoeuvre, picture, (begin, end), stray, now, settings),
         *_performance(manoeuvre, end, settings),
         *_leader(manoeuvre, picture, now, end, settings),
     )
@@ -90,10 +91,9 @@ def horizon(manoeuvre: Manoeuvre, now: Second, settings: AtcSettings) -> tuple[S
 
 
 def _known(
-    manoeuvre: Manoeuvre, picture: Picture, end: Second, settings: AtcSettings
+    manoeuvre: Manoeuvre, picture: Picture, end: Second, stray: Metre, settings: AtcSettings
 ) -> list[_Known]:
     """All others, each with what is to be kept and what may differ."""
-    own_stray = cleared_stray(manoeuvre.path, settings)
     known = []
     for seen in picture.aircraft:
         if seen.ident == manoeuvre.ident:
@@ -107,7 +107,7 @@ def _known(
         other = Other(
             track=track,
             minimum=settings.minimum,
-            stray=stray_of(seen, settings, own_stray),
+            stray=stray_of(seen, settings, stray),
             fan=settings.fan if seen.path is None else nan,
         )
         known.append(_Known(seen, other, leads=False, intends=seen.path is not None))
@@ -177,12 +177,12 @@ def _separation(
 
 
 def _airspace(
-    manoeuvre: Manoeuvre, picture: Picture, begin: Second, end: Second, now: Second,
-    settings: AtcSettings,
+    manoeuvre: Manoeuvre, picture: Picture, looked_at: tuple[Second, Second], stray: Metre,
+    now: Second, settings: AtcSettings,
 ) -> Iterator[Finding]:  # fmt: skip
-    bound = cleared_stray(manoeuvre.path, settings)
+    begin, end = looked_at
     for entry in entries(
-        manoeuvre.path, picture.airspaces, begin=begin, end=end, bound=bound,
+        manoeuvre.path, picture.airspaces, begin=begin, end=end, bound=stray,
         spare=settings.level.caution,
     ):  # fmt: skip
         when = _in(entry.at, now)
@@ -190,7 +190,7 @@ def _airspace(
         if entry.least > 0.0:
             message = (
                 f"It comes to {distance(entry.least)} from {entry.ident}, which is closed, {when}; "
-                f"{distance(bound + manoeuvre.path.error)} is kept for what it may stray."
+                f"{distance(stray + manoeuvre.path.error)} is kept for what it may stray."
             )
         yield _finding(
             "airspace", f"{message} Another path, or a start that is later, would help.",
