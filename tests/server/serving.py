@@ -32,6 +32,7 @@ class TestClient(starlette.testclient.TestClient):
     """A client on this machine: the service does not answer for other names."""
 
     def __init__(self, app: ASGIApp, **options: Any) -> None:
+        options = {"client": ("127.0.0.1", 50000), **options}
         super().__init__(app, base_url="http://localhost", **options)
 
     def websocket_connect(self, url: str, *arguments: Any, **options: Any) -> WebSocketTestSession:

@@ -18,6 +18,7 @@ from relguide_server.flights.hands import Hands
 from relguide_server.flights.history import History
 from relguide_server.flights.pace import Pace
 from relguide_server.flights.stream import FLIGHT_BROKEN, FLIGHT_GONE, StreamClient
+from relguide_server.flights.watchers import Watchers
 from relguide_server.http.errors import run_logged
 from relguide_server.http.metrics import Metrics
 from relguide_server.records.entries import Outcome
@@ -52,6 +53,8 @@ class FlightLabel:
     """How its world lies on the earth."""
     owner: str = ""
     """Who started it, as `access.owner_of` says it."""
+    client: str = ""
+    """The client in whose share it counts, as `clients.client_of` says it."""
     seed: int = 0
     """Of its random numbers."""
 
@@ -82,6 +85,7 @@ class LiveFlight:
         self._flown = self._shown = False
         self._recording = recording
         self.scene_viewers = 0
+        self.watchers, self.viewers = Watchers(label.client), Watchers(label.client)
         self.clients: set[StreamClient] = set()
         self._metrics = metrics
         self._source = source

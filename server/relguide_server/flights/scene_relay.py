@@ -25,6 +25,7 @@ from websockets.typing import Subprotocol
 from relguide_server.flights.frames import FrameAllowance
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
+from relguide_server.flights.watchers import TooManyWatch
 from relguide_server.http.proxy import root_of
 
 CAMERA = {
@@ -103,9 +104,13 @@ async def relay(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
         return
     flight = fleet.find(flight_id)
     try:
-        await _relay(websocket, flight)
-    finally:
-        await flight.leave_scene()
+        with flight.viewers.joined_by(websocket):
+            try:
+                await _relay(websocket, flight)
+            finally:
+                await flight.leave_scene()
+    except TooManyWatch:
+        await websocket.close()
 
 
 async def _relay(websocket: WebSocket, flight: LiveFlight) -> None:

@@ -135,7 +135,8 @@ class Access:
         if ROLES.index(role) < ROLES.index(needed):
             return _refuse(scope, 403, TOO_LITTLE.format(role=role, needed=needed))
         scope.setdefault("state", {})
-        scope["state"]["owner"] = "" if role == "control" else sha256(token.encode()).hexdigest()
+        shown = scope["state"]["token"] = sha256(token.encode()).hexdigest()  # for `client_of`
+        scope["state"]["owner"] = "" if role == "control" else shown
         return None
 
     def _role(self, token: str) -> Role | None:
