@@ -64,7 +64,7 @@ class ConnectionShares:
         self._barred = SeldomLine(now)
         self.refused = {"share": 0, "full": 0, "hang_ups": 0}
         """Connections that were not let in, by what was exhausted."""
-        self.shed = self.hang_ups = 0
+        self.shed = self.hang_ups = self.cut_off = 0
 
     def is_open_to(self, host: str) -> bool:
         """Whether a new connection from an address is to be heard at all."""
@@ -139,6 +139,9 @@ class ConnectionShares:
         yield refused
         yield CounterMetricFamily(
             "relguide_connections_shed", "Idle connections ended to make room.", self.shed
+        )
+        yield CounterMetricFamily(
+            "relguide_sockets_cut_off", "WebSockets cut off for how much they sent.", self.cut_off
         )
         yield CounterMetricFamily(
             "relguide_hang_ups", "Connections left before they were answered.", self.hang_ups

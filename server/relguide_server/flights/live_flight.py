@@ -82,7 +82,7 @@ class LiveFlight:
         self.history = History()
         self.last_seen = asyncio.get_running_loop().time()
         self.broken = False
-        self._flown = self._shown = False
+        self._flown = self._shown = self._counted = False
         self._recording = recording
         self.scene_viewers = 0
         self.watchers, self.viewers = Watchers(label.client), Watchers(label.client)
@@ -173,6 +173,8 @@ class LiveFlight:
         self._shown = flown
         for document in documents:
             self.history.add(document)
+            if isinstance(document, FlightEnded):
+                self._count_end(document.reason)
         return documents
 
     def beat(self) -> None:
@@ -195,6 +197,7 @@ class LiveFlight:
                 client.offer(text, essential=essential)
         self.control.look(over=self.over)
         if self.broken:
+            self._count_end("broken")
             self.dismiss(FLIGHT_BROKEN, "This flight was stopped by a mistake of the server.")
 
     def join(self) -> StreamClient:
@@ -259,6 +262,7 @@ class LiveFlight:
             outcome: what is recorded of it, if it has not ended by itself.
         """
         self.pace.stop()
+        self._count_end("broken" if self.broken else outcome)
         self.dismiss(FLIGHT_GONE, "This flight is over and has been removed.")
         if self._stage is not None:
             stage, self._stage = self._stage, None
@@ -267,6 +271,12 @@ class LiveFlight:
         self._recording.end(outcome)
 
     # -- inside -----------------------------------------------------------------------------------
+
+    def _count_end(self, outcome: str) -> None:
+        """Count how it ended, the first time that it is known."""
+        if not self._counted:
+            self._counted = True
+            self._metrics.flights_ended.labels(outcome).inc()
 
     def _text(self, documents: Sequence[Document]) -> str:
         plane = self.label.plane

@@ -26,6 +26,7 @@ from relguide_server.flights.frames import FrameAllowance
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.watchers import TooManyWatch
+from relguide_server.http.metrics import Metrics
 from relguide_server.http.proxy import root_of
 
 CAMERA = {
@@ -141,6 +142,9 @@ async def _relay(websocket: WebSocket, flight: LiveFlight) -> None:
         for task in done:
             refused = task.result()  # a mistake of ours in there is raised here
             if refused is not None:
+                metrics: Metrics = websocket.app.state.metrics
+                why = "too_fast" if refused is TOO_FAST else "not_passed_on"
+                metrics.frames_refused.labels(why).inc()
                 with suppress(WebSocketDisconnect):
                     await websocket.close(*refused)
     finally:

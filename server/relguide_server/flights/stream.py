@@ -97,6 +97,7 @@ class StreamClient:
             for task in done:
                 task.result()  # a mistake of ours in there is raised here
         except UnwelcomeFrame as unwelcome:
+            self._metrics.frames_refused.labels(unwelcome.why).inc()
             with suppress(WebSocketDisconnect):
                 await websocket.close(unwelcome.code, unwelcome.reason)
 
