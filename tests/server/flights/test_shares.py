@@ -106,3 +106,31 @@ def test_an_owner_sees_its_flight_however_many_watch_it() -> None:
 
     with serve(ideal_app(ideal_flight, max_watchers=4)) as address:
         asyncio.run(watch(address))
+
+
+def test_streams_make_room_for_who_is_new_but_never_an_owners() -> None:
+    async def get(address: str, path: str, host: str, **body: Any) -> httpx.Response:
+        transport = httpx.AsyncHTTPTransport(local_address=host)
+        async with httpx.AsyncClient(transport=transport, base_url=f"http://{address}") as client:
+            return await (client.post(path, **body) if body else client.get(path))
+
+    async def watch(address: str) -> None:
+        flight = (await get(address, "/api/v1/flights", "127.0.0.2", json=FLIGHT)).json()
+        url = f"ws://{address}{flight['stream_url']}"
+        async with AsyncExitStack() as stack:
+            own = await dial(stack, url, "127.0.0.2")
+            await own.recv()
+            hosts = ("127.0.0.3", "127.0.0.3", "127.0.0.4", "127.0.0.4")
+            strangers = [await dial(stack, url, host) for host in hosts]
+            for each in strangers:
+                await each.recv()
+            assert (await get(address, "/api/v1/flights", "127.0.0.5")).status_code == 200
+            await strangers[0].wait_closed()
+            assert (strangers[0].close_code, strangers[0].close_reason[:19]) == (
+                1013, "This server is full",
+            )  # fmt: skip
+            for each in (own, *strangers[1:]):
+                assert await each.recv()
+
+    with serve(ideal_app(), most=4) as address:
+        asyncio.run(watch(address))
