@@ -54,7 +54,7 @@ class ConnectionShares:
             proxies: says of an address whether it speaks for many clients, and may have all.
             now: a clock.
         """
-        self._most, self._share = most, max(most // 2, 1)
+        self.most, self._share = most, max(most // 2, 1)
         self._proxies = proxies
         self._guests: dict[str, dict[Guest, None]] = {}
         self._count = 0
@@ -92,10 +92,10 @@ class ConnectionShares:
             self._told.add(guest)
             self.refused["share"] += 1
             return TOO_MANY_OF_YOURS.format(most=self._share)
-        if self._count >= self._most and not self._make_room(guest.whose):
+        if self._count >= self.most and not self._make_room(guest.whose):
             self._told.add(guest)
             self.refused["full"] += 1
-            return TOO_MANY.format(most=self._most)
+            return TOO_MANY.format(most=self.most)
         self._seat(guest)
         return ""
 
