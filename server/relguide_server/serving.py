@@ -67,6 +67,7 @@ class Server(uvicorn.Server):
         fleet: LiveFleet = app.state.fleet
         workers: WorkerPool = app.state.workers
         fleet.dismiss()
+        app.state.desk.journal.dismiss()
         app.state.bodies.stop()
         await workers.stop()
         await asyncio.sleep(TO_SAY_GOODBYE)

@@ -207,8 +207,12 @@ async def _answer_invalid(request: Request, error: Exception) -> Response:
 
 
 async def _note_left(request: Request, error: Exception) -> Response:
-    """The answer to a client that left, which nobody reads; it is noted."""
     del error
+    return answer_left(request)
+
+
+def answer_left(request: Request) -> Response:
+    """The answer to a client that left, which nobody reads; it is noted."""
     left: SeldomLine = request.app.state.left
     left.write("A client left before %s %s was answered.", request.method, request.url.path)
     return Response(status_code=400)

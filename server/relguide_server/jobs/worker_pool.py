@@ -7,10 +7,12 @@ which is replaced. A client that leaves takes its job with it.
 """
 
 import asyncio
+import os
 from collections import deque
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from math import inf
 from time import monotonic
 from typing import Any, Literal, get_args
 
@@ -43,6 +45,10 @@ STOPPING = "The service is stopping: it may be back in a moment."
 INTERRUPTED = "The process that worked on this ended before its time: try again."
 THREADS = 4
 """Hands where jobs are done by threads."""
+PULSE = 1.0
+"""A hand that answered so short a time ago is not asked again whether it does [s]."""
+TO_ANSWER = 3.0
+"""How long a hand that has nothing else to do may take to answer [s]."""
 
 
 @dataclass(slots=True, eq=False)
@@ -105,6 +111,8 @@ class WorkerPool:
         self._stopped = False
         self._abandoned = SeldomLine()
         self._ready: set[Executor] = set()
+        self._answered = -inf
+        """When a hand was last asked whether it answers, and did."""
         self._tasks: list[asyncio.Task[None]] = []
         self.done: dict[Kind, int] = dict.fromkeys(KINDS, 0)
         """Jobs done."""
@@ -117,6 +125,23 @@ class WorkerPool:
     def ready(self) -> bool:
         """Whether a hand has done its first job, so that jobs are answered."""
         return bool(self._ready)
+
+    async def answers(self) -> bool:
+        """Whether a hand answers now.
+
+        The first that is ready is asked, if it has nothing to do. One that is busy counts as if it
+        answered: it is killed once its job takes too long, as is one that is asked in vain.
+        """
+        now = asyncio.get_running_loop().time()
+        asked = next((hand for hand in self._hands if hand in self._ready), None)
+        if asked not in self._free or now - self._answered < PULSE:
+            return self.ready
+        try:
+            await self.do("plans", os.getpid, patience=TO_ANSWER)
+        except Refusal:
+            return False
+        self._answered = now
+        return True
 
     @property
     def waiting(self) -> dict[Kind, int]:
