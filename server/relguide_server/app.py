@@ -17,6 +17,12 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.outcome import Planner
+from relguide_server.atc import routes as clearance_routes
+from relguide_server.atc import traffic_routes
+from relguide_server.atc.desk import Desk
+from relguide_server.atc.reports import Reports
+from relguide_server.atc.skies import Skies
+from relguide_server.atc.watching import Watching
 from relguide_server.flights import record_routes, routes, scene_relay, stream_docs
 from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
 from relguide_server.flights.live_fleet import LiveFleet
@@ -27,6 +33,7 @@ from relguide_server.http.bodies import Bodies, json_answer
 from relguide_server.http.body_limit import BodyLimit
 from relguide_server.http.errors import install_handlers
 from relguide_server.http.head_requests import HeadAsGet
+from relguide_server.http.idempotency import Idempotency
 from relguide_server.http.metrics import Metrics
 from relguide_server.http.openapi import describe, name_of, response, schema_of
 from relguide_server.http.pages import Page
@@ -110,6 +117,9 @@ def create_app(
     fleet = LiveFleet(settings, metrics)
     metrics.watch(partial(_measure, fleet, workers))
     metrics.watch(records.measure)
+    reports = Reports()
+    desk = Desk(Skies(fleet, reports), settings, records, metrics)
+    watching = Watching(desk, reports)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -117,9 +127,13 @@ def create_app(
         records.start()
         drift.start()
         fleet.start()
+        watching.start()
         workers.start(partial(preparation.can_plan_by, name), partial(load, name))
         yield
+        await app.state.idempotency.stop()
         await workers.stop()
+        await watching.stop()
+        await desk.stop()
         await fleet.stop()
         await asyncio.to_thread(records.stop)
         await asyncio.to_thread(drift.stop)
@@ -132,16 +146,19 @@ def create_app(
         description=DESCRIPTION,
         lifespan=lifespan,
         generate_unique_id_function=name_of,
+        openapi_url=None,  # `describe` shows it
         docs_url=None,
         redoc_url=None,
         telemetry=NO_TELEMETRY,
     )
     app.state.workers, app.state.bodies = workers, Bodies()
+    app.state.idempotency = Idempotency()
     app.state.plan_service = PlanService(
         name, planner, quick=quick, preparation=preparation, workers=workers, metrics=metrics
     )
     app.state.settings, app.state.catalogue = settings, catalogue
     app.state.records, app.state.recordings = records, KeptRecordings()
+    app.state.reports, app.state.desk = reports, desk
     app.state.peers = Peers(settings.peers, process=settings.process)
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     app.router.routes[:0] = plans.router.routes  # most requests are for these
@@ -153,6 +170,8 @@ def create_app(
         flown_scenarios.router,
         record_routes.router,
         scene_relay.router,
+        clearance_routes.router,
+        traffic_routes.router,
         stream_docs.router,
         problem_docs.router,
         pages.router,

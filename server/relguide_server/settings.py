@@ -116,6 +116,10 @@ class ServiceSettings(BaseSettings):
     log_level: Annotated[Literal["debug", "info", "warning"], Unit("debug|info|warning")] = "info"
     """What the log holds at least; `debug` adds a line for every request."""
 
+    atc_auto_answer: Annotated[Literal["auto", "on", "off"], Unit("auto|on|off")] = "auto"
+    """Whether the automation answers requests for clearances in the controller's place; `auto`:
+    while no token is a controller's and no controllers' stream is open."""
+
     records: Annotated[Literal["on", "off"], Unit("on|off")] = "on"
     """Whether flights, commands and plans asked for are kept."""
     database_url: Annotated[str, Unit("URL")] = ""

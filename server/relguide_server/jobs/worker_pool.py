@@ -16,9 +16,10 @@ from math import inf
 from typing import Any, Literal, get_args
 
 from relguide_server.http.errors import Refusal, log
+from relguide_server.http.logs import SeldomLine
 from relguide_server.jobs.executors import Executor, ProcessExecutor, ThreadExecutor
-from relguide_server.jobs.fair_queue import FairQueue
 from relguide_server.jobs.outcomes import JobDone, Outcome, value_of
+from relguide_server.shares.fair_queue import FairQueue
 
 Kind = Literal["plans", "trials", "long_plans", "simulations", "areas", "batches"]
 """What waits in one queue. `plans` take some hundredths of a second; `trials` are plans of clients
@@ -97,6 +98,7 @@ class WorkerPool:
         self._turn, self._quick_turn = deque(KINDS), deque(QUICK)
         self._open: set[_Job] = set()
         self._stopped = False
+        self._abandoned = SeldomLine()
         self._ready: set[Executor] = set()
         self._answered = -inf
         """When a hand was last asked whether it answers, and did."""
@@ -257,7 +259,7 @@ class WorkerPool:
             if not doing.done():
                 self.killed += 1
                 if abandoned:
-                    log.info("A job whose client had left was ended.")
+                    self._abandoned.write("A job whose client had left was ended.")
                 else:
                     log.warning("A job took longer than %.1f s and was ended.", job.patience)
                 job.end(_too_long(job.patience))

@@ -10,8 +10,8 @@ import httpx2 as httpx
 import pytest
 import viser
 from relguide_server.app import create_app
+from relguide_server.doors.connections import LONGEST_HEAD
 from relguide_server.http.access import NO_TOKEN, ROLES, UNKNOWN_TOKEN
-from relguide_server.http.connections import LONGEST_HEAD
 from relguide_server.planning.plans import EXAMPLE
 from relguide_server.scene.guarded_port import HEADER, SECRET
 from relguide_server.settings import ServiceSettings
@@ -82,6 +82,12 @@ TABLE = {
     ("GET", "/api/v1/records/flights/{flight_id}/documents"): "view",
     ("POST", "/api/v1/records/flights/{flight_id}/replay"): "fly",
     ("GET", "/api/v1/records/flights/{flight_id}/export"): "view",
+    ("GET", "/api/v1/traffic"): "view",
+    ("PUT", "/api/v1/traffic"): "control",
+    ("DELETE", "/api/v1/traffic"): "control",
+    ("GET", "/api/v1/airspaces"): "view",
+    ("PUT", "/api/v1/airspaces"): "control",
+    ("DELETE", "/api/v1/airspaces"): "control",
 }
 
 
@@ -278,7 +284,7 @@ def test_a_large_body_is_no_head() -> None:
 
 
 def test_a_head_that_never_comes_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("relguide_server.http.connections.HEAD_PATIENCE", 0.3)
+    monkeypatch.setattr("relguide_server.doors.connections.HEAD_PATIENCE", 0.3)
     with serve(ideal_app()) as address:
         host, _, port = address.partition(":")
         for begun in (b"", b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Slow: "):
