@@ -30,6 +30,7 @@ from relguide.contract.upstream import ControlAnswer, Upstream
 from relguide.flying.aircraft_documents import AlertLevel, AlertState, Spacing
 from relguide.flying.documents import (
     AlertSubject,
+    ClearanceStatus,
     Engagement,
     Fault,
     LeaderChange,
@@ -57,6 +58,10 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "Proof": (Proof, "Why a plan is optimal."),
     "PlanReason": (PlanReason, "Why a new plan was made."),
     "LeaderChange": (LeaderChange, "What is new about the leader."),
+    "ClearanceStatus": (
+        ClearanceStatus,
+        "What became of a manoeuvre that was sent to air traffic control.",
+    ),
     "Spacing": (Spacing, "What a link keeps once joined: a distance, or a time."),
     "AlertLevel": (
         AlertLevel,

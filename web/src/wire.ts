@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-f9fc6a32e7c0";
+export const PROTOCOL = "relguide-ca90ad843574";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -46,6 +46,17 @@ export type LeaderChange =
   | "intent_received"
   | "intent_withdrawn"
   | "intent_broken";
+
+/** What became of a manoeuvre that was sent to air traffic control. */
+export type ClearanceStatus =
+  | "sent"
+  | "standby"
+  | "validated"
+  | "unable"
+  | "wilco"
+  | "flying"
+  | "deviating"
+  | "over";
 
 /** What a link keeps once joined: a distance, or a time. */
 export type Spacing = "distance" | "time";
@@ -113,6 +124,7 @@ export type Document =
   | CommandGiven
   | ControlChanged
   | AssignmentChanged
+  | ClearanceNews
   | PlanUnavailable
   | PlanRefused
   | ModeChanged
@@ -558,6 +570,28 @@ export interface ClearanceChanged {
   kind: "clearance_changed";
   t_s: number;
   clearance: ClearanceCard;
+}
+
+/**
+ * What air traffic control says of the manoeuvre that a crew has sent it.
+ *
+ * It comes from outside the flight, which flies the same without it.
+ */
+export interface ClearanceNews {
+  kind: "clearance_news";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  clearance_id: string;
+  clearance: ClearanceStatus;
+  /** caution: something is to be seen to; warning: it is no longer cleared, or far off its path. */
+  level: AlertState;
+  /** Why, in a word: `separation`, `airspace`, `across` …; left out where nothing is wrong. */
+  reason?: string;
+  /** In a sentence. */
+  message: string;
+  /** Whether the automation answered in the controller's place. */
+  automated: boolean;
 }
 
 /** How near a pursuer came to one other aircraft, or to the edge of a cell. */

@@ -8,6 +8,7 @@ from typing import assert_never
 from relguide.flying.documents import (
     Alert,
     AssignmentChanged,
+    ClearanceNews,
     CommandGiven,
     ControlChanged,
     Document,
@@ -71,6 +72,7 @@ class History:
                 | EngagementChanged()
                 | ControlChanged()
                 | AssignmentChanged()
+                | ClearanceNews()
                 | PlanRefused()
                 | ModeChanged()
                 | PromiseChanged()
