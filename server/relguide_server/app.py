@@ -18,7 +18,9 @@ from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.outcome import Planner
 from relguide_server.atc import traffic_routes
+from relguide_server.atc.feeds.feeds import Feeds
 from relguide_server.atc.reports import Reports
+from relguide_server.feed_settings import feeds_of
 from relguide_server.flights import record_routes, routes, scene_relay, stream_docs
 from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
 from relguide_server.flights.live_fleet import LiveFleet
@@ -109,6 +111,9 @@ def create_app(
     fleet = LiveFleet(settings, metrics)
     metrics.watch(partial(_measure, fleet, workers))
     metrics.watch(records.measure)
+    reports = Reports()
+    feeds = Feeds(feeds_of(settings.feed), reports)
+    metrics.watch(feeds.measure)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -116,8 +121,10 @@ def create_app(
         records.start()
         drift.start()
         fleet.start()
+        feeds.start()
         workers.start(partial(preparation.can_plan_by, name), partial(load, name))
         yield
+        await feeds.stop()
         await workers.stop()
         await fleet.stop()
         await asyncio.to_thread(records.stop)
@@ -141,7 +148,7 @@ def create_app(
     )
     app.state.settings, app.state.catalogue = settings, catalogue
     app.state.records, app.state.recordings = records, KeptRecordings()
-    app.state.reports = Reports()
+    app.state.reports, app.state.feeds = reports, feeds
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     app.router.routes[:0] = plans.router.routes  # most requests are for these
     for part in (
@@ -209,6 +216,9 @@ async def show_readiness(
         },
         "records": records.report().model_dump(),
     }
+    feeds: Feeds = request.app.state.feeds
+    if heard := feeds.report():
+        report["feeds"] = heard
     if preparation.ready and workers.ready:
         return json_answer(report)
     report["status"] = "preparing"
