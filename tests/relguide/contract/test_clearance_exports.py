@@ -84,7 +84,7 @@ def test_czml_is_read_by_another_reader() -> None:
     about, own, leader = document.packets
     assert about.clock.interval.start == ASKED
     assert (own.id, leader.id) == ("AIB01", "AIB02")
-    assert own.properties.clearance_id == "3f2a9c0d71be"
+    assert own.properties["clearance_id"] == "3f2a9c0d71be"
     values = own.position.cartographicDegrees.values
     assert values[0] == 0.0
     assert values[-4] == 240.0
