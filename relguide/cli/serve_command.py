@@ -3,11 +3,10 @@
 import argparse
 import socket
 from importlib import import_module
-from ipaddress import ip_address
 from textwrap import fill, indent
 from typing import Any
 
-from relguide.cli.output import DONE, say, write
+from relguide.cli.output import DONE, FAILED, say, write
 from relguide.planning.extras import need
 
 PURPOSE = "start the service and the cockpit"
@@ -24,6 +23,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of `relguide serve`: an address, and all settings of the service."""
     parser.add_argument("--host", default="127.0.0.1", help="default: %(default)s")
     parser.add_argument("--port", type=_port, default=8000, help="default: %(default)s")
+    parser.add_argument(
+        "--check", action="store_true", help="say what a start would do to records, and end"
+    )
     need(*NEEDED)
     options = _server("settings").options()
     settings = parser.add_argument_group(
@@ -59,37 +61,51 @@ def run(chosen: argparse.Namespace) -> int:
             probe.bind((host, port))
         except OSError as error:
             raise OSError(error.errno, error.strerror, f"{host}, port {port}") from None
-    app = _server("app").app_of(settings)
+    if chosen.check:
+        return _check(settings)
+    app = _server("app").app_of(settings, exposed=not _is_loopback(host))
     shown = f"[{host}]" if ":" in host else host
     write(f"relguide is on http://{shown}:{port}{settings.root_path} (Ctrl-C stops it)\n")
-    warning = open_to_all(host, settings.tokens)
+    warning = open_to_all(host, settings.tokens, settings.open_control)
     if warning:
         say(warning)
     _server("serving").serve(app, host=host, port=port)
     return DONE
 
 
-def open_to_all(host: str, tokens: str) -> str:
-    """What to say of a service that others may do everything with; empty if they may not.
+def _check(settings: Any) -> int:
+    """Say what a start would do, once settings and address are known to be usable."""
+    records = _server("records.service")
+    try:
+        found = records.records_outlook(
+            records=settings.records, database_url=settings.database_url, data=settings.data
+        )
+    except _server("records.entries").Unavailable as error:
+        say(f"It starts, and cannot record: {error}")
+        return FAILED
+    write(f"It can start. {found}\n")
+    return DONE
+
+
+def open_to_all(host: str, tokens: str, open_control: str = "off") -> str:
+    """What to say of a service that others may ask without tokens; empty if they may not.
 
     Args:
         host: the address that it listens at.
         tokens: the setting.
+        open_control: the setting.
     """
-    if tokens or host == "localhost" or (_is_address(host) and ip_address(host).is_loopback):
+    if tokens or _is_loopback(host):
         return ""
-    return (
-        f"Everyone that reaches {host} may start, command and end flights, and delete records: "
-        "set RELGUIDE_TOKENS to allow it to some."
-    )
+    may = "start flights, and command and end their own"
+    if open_control == "on":
+        may = "start, command and end all flights, and delete records"
+    return f"Everyone that reaches {host} may {may}: set RELGUIDE_TOKENS to say who may do what."
 
 
-def _is_address(host: str) -> bool:
-    try:
-        ip_address(host)
-    except ValueError:
-        return False
-    return True
+def _is_loopback(host: str) -> bool:
+    found: bool = _server("http.access").is_loopback(host)
+    return found
 
 
 def _server(name: str) -> Any:

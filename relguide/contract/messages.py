@@ -15,6 +15,7 @@ from typing import (
     Any,
     Literal,
     Protocol,
+    TypeVar,
     Union,
     get_args,
     get_origin,
@@ -42,7 +43,7 @@ from relguide.contract.pilot_bodies import ByHand
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.aircraft_documents import ReferenceCard
-from relguide.flying.documents import Document, Engagement, Mode
+from relguide.flying.documents import Document, EndReason, Engagement, Mode
 from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     FlownCard,
@@ -56,6 +57,7 @@ from relguide.flying.plan_documents import (
 from relguide.flying.verdicts import OptimalityCheck, PlannerVerdict
 from relguide.planning.limits import SPACING
 
+Card = TypeVar("Card")
 Extra = Literal["forbid", "ignore"]
 """What to do with fields that are not known: a newer program's are ignored by who only reads."""
 _TAGS = ("kind", "status", "rejected")
@@ -70,6 +72,7 @@ _GEODETIC = Field(
     description="WGS84; there if the situation came with latitudes.",
     json_schema_extra=_no_default,
 )
+_OF_SNAPSHOTS = Field(default="", json_schema_extra=_no_default)
 _MODELS: dict[type[Any], type[BaseModel]] = {}
 _DATACLASSES: dict[type[BaseModel], type[Any]] = {}
 _PLACED: dict[type[Any], type[Any]] = {}
@@ -223,6 +226,23 @@ def _plan_answers() -> TypeAdapter[Any]:
     return TypeAdapter(PlanAnswer)
 
 
+def card_from_wire(
+    card_type: type[Card], source: bytes | str | Mapping[str, object], *, extra: Extra = "forbid"
+) -> Card:
+    """Read a card of that type back from its JSON, as `from_wire`.
+
+    Raises:
+        ContractError: naming each field that is wrong.
+    """
+    content = loads(source) if isinstance(source, bytes | str) else source
+    try:
+        model = model_of(card_type).model_validate(content, extra=extra)
+    except ValidationError as error:
+        raise refusal(error, content) from None
+    card: Card = _from_model(model)
+    return card
+
+
 def _from_model(model: BaseModel) -> Any:
     document_type = _DATACLASSES[type(model)]
     members = {f.name: _decode(f, getattr(model, f.wire_name)) for f in wire_fields(document_type)}
@@ -253,8 +273,8 @@ def _decode(field: WireField, value: Any) -> Any:
     if isinstance(value, BaseModel):
         return _from_model(value)
     if isinstance(value, list):
-        numbers = field.annotation == tuple[float, ...]
-        return tuple(map(field.decode_number if numbers else _from_model, value))
+        plain = field.annotation in (tuple[float, ...], tuple[str, ...])
+        return tuple(map(field.decode_number if plain else _from_model, value))
     if isinstance(field.annotation, type) and issubclass(field.annotation, Enum):
         return field.annotation(value)
     return field.decode_number(value)
@@ -291,6 +311,11 @@ class Tick(Strict):
     ended: bool
     documents: list[DocumentModel]
     """Since the last tick, in order; of several samples only the newest."""
+    started_at: str = _OF_SNAPSHOTS
+    """When the flight began by the wall clock, RFC 3339, UTC; of a recording, when it was flown.
+    In a snapshot, as is `version`."""
+    version: str = _OF_SNAPSHOTS
+    """Of the software that flies it."""
 
 
 class PlannerComparison(Strict):
@@ -386,6 +411,10 @@ FlightRequest = Annotated[
 """A request for a new flight."""
 
 
+FlightOutcome = Literal["", "broken", "stopped", EndReason]
+"""Why a flight is over; empty while it flies."""
+
+
 class FlightStatus(Strict):
     """Where a flight stands."""
 
@@ -403,6 +432,11 @@ class FlightStatus(Strict):
     """Whether it waits for `play`."""
     ended: bool
     """Whether it is over."""
+    outcome: FlightOutcome
+    """Why: broken: by a mistake of the server; stopped: nothing follows, as at the end of a
+    recording that was cut short; the others as in `flight_ended`. Empty while it flies."""
+    started_at: str
+    """When it began by the wall clock, RFC 3339, UTC; of a recording, when it was flown."""
     mode: Mode
     """What guidance does now."""
     engagement: Engagement
@@ -427,4 +461,6 @@ class FlightList(Strict):
     """All flights."""
 
     flights: list[FlightStatus]
-    """In the order they were started."""
+    """In the order they were started; of several processes, one after the other."""
+    missing: list[str] = Field(default_factory=list)
+    """Letters of the processes that did not answer; left out if all did."""

@@ -8,6 +8,15 @@ from relguide.atc.documents import DeviationKind, DeviationLevel, ReasonCode
 from relguide.atc.documents import Verdict as AtcVerdict
 from relguide.contract.area_bodies import AreaAnswer, AreaRequest
 from relguide.contract.bodies import SituationBody
+from relguide.contract.clearance_bodies import (
+    AtcFrame,
+    ClearanceAnswer,
+    ClearanceList,
+    ClearanceReply,
+    ClearanceRequest,
+    ClearanceTrial,
+    SpacingGoal,
+)
 from relguide.contract.commands import Command
 from relguide.contract.crew_lines import CrewOrderLine
 from relguide.contract.intent_bodies import Piece
@@ -91,11 +100,13 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "ReasonCode": (ReasonCode, "Why a manoeuvre is not acceptable, or a clearance ends."),
     "DeviationKind": (DeviationKind, "In what an aircraft is not where it is cleared to be."),
     "DeviationLevel": (DeviationLevel, "How far."),
+    "SpacingGoal": (SpacingGoal, "What is kept behind the traffic."),
+    "ClearanceRequest": (ClearanceRequest, "A request for a clearance."),
     "AtcDocument": (AtcDocumentModel, "What the controllers' stream brings."),
 }
 _ROOTS = (
     Tick, ControlAnswer, SituationBody, ScenarioList, FlightList, AreaRequest, AreaAnswer,
-    PlannerComparison,
+    PlannerComparison, AtcFrame, ClearanceAnswer, ClearanceList, ClearanceReply, ClearanceTrial,
 )  # fmt: skip
 
 

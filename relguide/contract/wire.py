@@ -5,11 +5,11 @@ written as degrees (`_deg`, `_degps`), headings and tracks in [0, 360). A traili
 Python name is dropped. The field that names a union's member (`kind`, `status`) comes first.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import Field, dataclass, fields, is_dataclass
 from enum import Enum
 from math import degrees, isfinite, radians
-from types import UnionType
+from types import MappingProxyType, UnionType
 from typing import (
     TYPE_CHECKING,
     Annotated,
@@ -28,6 +28,7 @@ from relguide.contract.docs import field_docs
 from relguide.flying.plan_documents import ADDED, LEFT_OUT
 
 if TYPE_CHECKING:  # most of what can be written is never needed where plans are made
+    from relguide.atc.documents import AtcDocument, ClearanceCard, TrackCard, ValidationCard
     from relguide.flying.aircraft_documents import (
         AircraftCard,
         AircraftSample,
@@ -69,6 +70,10 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
         | Loss
         | ClosestOther
         | FlownByHand
+        | AtcDocument
+        | ClearanceCard
+        | TrackCard
+        | ValidationCard
     )
     """Parts of documents that also travel alone."""
 
@@ -138,6 +143,19 @@ def dumps(document: "Document | Card") -> bytes:
     return to_json(to_wire(document))
 
 
+def placed_to_wire(document: "Document | Card", place: Place | None) -> dict[str, Any]:
+    """As `to_wire`, with the latitude and longitude of each point.
+
+    Args:
+        document: it.
+        place: x, y [m] → latitude, longitude [°]; `None` where that is not known.
+    """
+    written = to_wire(document)
+    if place is not None:
+        _add_places(written, place)
+    return written
+
+
 def tick(
     flight_id: str,
     *,
@@ -147,6 +165,7 @@ def tick(
     ended: bool,
     documents: "Sequence[Document]",
     place: Place | None = None,
+    origin: Mapping[str, str] = MappingProxyType({}),
 ) -> bytes:
     """One frame of the stream: what happened since the last one, in order, as JSON text.
 
@@ -158,6 +177,7 @@ def tick(
         ended: whether it is over.
         documents: since the last tick.
         place: x, y [m] → latitude, longitude [°], which every point then has as well.
+        origin: when the flight began and what flies it, for a frame that begins with that.
     """
     written = [to_wire(document) for document in documents]
     if place is not None:
@@ -171,6 +191,7 @@ def tick(
             "paused": paused,
             "ended": ended,
             "documents": written,
+            **origin,
         }
     )
 
@@ -270,6 +291,8 @@ def _conversion(name: str, annotation: Any, unit: str) -> tuple[Convert, Convert
         return _expect_finite, _keep
     if annotation in (int, bool, str):
         return annotation, _keep  # also turns numpy's scalars into Python's
+    if annotation == tuple[str, ...]:
+        return list, _keep
     if get_origin(annotation) is tuple:
         return _encode_all, _keep
     if is_dataclass(annotation):

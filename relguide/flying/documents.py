@@ -33,6 +33,7 @@ from relguide.flying.plan_documents import (
     LEFT_OUT,
     NoPlanCard,
     OtherPathCard,
+    PathAhead,
     PathPoint,
     PathSegment,
     PlanCard,
@@ -147,6 +148,8 @@ class PlanProposed:
     """Least separation of that forecast, which is what must keep d_min."""
     others: tuple[OtherPathCard, ...]
     """Other paths to the slot that could be flown, fastest first: at most three."""
+    ahead: tuple[PathAhead, ...] = field(default=(), metadata=LEFT_OUT)
+    """What would be flown, as forecast; none in recordings of before."""
     kind: Literal["plan_proposed"] = "plan_proposed"
 
 

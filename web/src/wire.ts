@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-ca90ad843574";
+export const PROTOCOL = "relguide-38cc71cee134";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -227,6 +227,12 @@ export type DeviationKind = "across" | "along" | "spacing" | "level" | "turn";
 /** How far. */
 export type DeviationLevel = "none" | "caution" | "alert";
 
+/** What is kept behind the traffic. */
+export type SpacingGoal = DistanceGoal | TimeGoal;
+
+/** A request for a clearance. */
+export type ClearanceRequest = FlightClearanceRequest | IntentClearanceRequest;
+
 /** What the controllers' stream brings. */
 export type AtcDocument =
   | ClearanceChanged
@@ -439,6 +445,14 @@ export interface AssignmentChanged {
   message: string;
 }
 
+/** A frame of the controllers' stream: what happened since the last one, in order. */
+export interface AtcFrame {
+  kind: "atc";
+  number: number;
+  snapshot: boolean;
+  documents: AtcDocument[];
+}
+
 /** The crew takes control from the autopilot, or gives it back. */
 export interface AutopilotOrder {
   t_s?: number;
@@ -526,6 +540,13 @@ export interface CellCard {
   lon_deg?: number[];
 }
 
+/** What the controller says to a request, or does with a clearance. */
+export interface ClearanceAnswer {
+  answer: "accepted" | "unable" | "standby" | "cancelled" | "terminated";
+  reason?: ReasonCode | "";
+  message?: string;
+}
+
 /** A clearance: what is asked for, what automation finds, what was answered. */
 export interface ClearanceCard {
   id: string;
@@ -555,6 +576,10 @@ export interface ClearanceCard {
   joins_s: number;
   route: TrackCard;
   leader_route: TrackCard;
+  /** That its turns need; left out where it is not known. */
+  bank_deg?: number;
+  /** That the aircraft has; left out where it is not known. */
+  max_bank_deg?: number;
   /** The last one; none before the first. */
   validation: ValidationCard[];
   /** Those that stand now. */
@@ -570,6 +595,11 @@ export interface ClearanceChanged {
   kind: "clearance_changed";
   t_s: number;
   clearance: ClearanceCard;
+}
+
+/** Clearances. */
+export interface ClearanceList {
+  clearances: ClearanceCard[];
 }
 
 /**
@@ -592,6 +622,21 @@ export interface ClearanceNews {
   message: string;
   /** Whether the automation answered in the controller's place. */
   automated: boolean;
+}
+
+/** What the crew says to its clearance. */
+export interface ClearanceReply {
+  reply: "WILCO" | "UNABLE" | "CANCEL";
+  message?: string;
+}
+
+/** What a request would be found to be; nothing is kept of it. */
+export interface ClearanceTrial {
+  text: string;
+  joins_s: number;
+  route: TrackCard;
+  leader_route: TrackCard;
+  validation: ValidationCard;
 }
 
 /** How near a pursuer came to one other aircraft, or to the edge of a cell. */
@@ -715,7 +760,7 @@ export interface Deviation {
   /** Beside the path, from D, from the level [m]; before or behind [s]; of a turn how late [s]. */
   amount: number;
   unit: "m" | "s";
-  /** Since when it is at this level. */
+  /** Since when it is at this level or above. */
   since_s: number;
   message: string;
 }
@@ -749,6 +794,12 @@ export interface DiscCell {
   disc: LocalDisc | GeodeticDisc;
   velocity_mps?: number[];
   growth_mps?: number;
+}
+
+/** A distance to keep behind the traffic. */
+export interface DistanceGoal {
+  type: "distance";
+  value_m: number;
 }
 
 /** A word that reaches the place of the slot before it opens. */
@@ -861,6 +912,13 @@ export interface Finding {
   idents?: string[];
 }
 
+/** A flight of this service asks for what its guidance flies or proposes. */
+export interface FlightClearanceRequest {
+  flight_id: string;
+  aircraft?: string;
+  clearance_type?: "capture_then_maintain";
+}
+
 /** How the flight went: the last document. */
 export interface FlightEnded {
   kind: "flight_ended";
@@ -875,6 +933,7 @@ export interface FlightEnded {
 /** All flights. */
 export interface FlightList {
   flights: FlightStatus[];
+  missing?: string[];
 }
 
 /** All that is known before the flight: the first document. */
@@ -906,6 +965,8 @@ export interface FlightStatus {
   rate: number;
   paused: boolean;
   ended: boolean;
+  outcome: "" | "broken" | "stopped" | "joined" | "time_over" | "recording_over" | "plane_left";
+  started_at: string;
   mode: Mode;
   engagement: Engagement;
   joined: boolean;
@@ -1013,6 +1074,17 @@ export interface ForecastChanged {
   lat_deg?: number[];
   /** WGS84; there if the situation came with latitudes. */
   lon_deg?: number[];
+}
+
+/** Who asks, now, placed on the earth (WGS84). */
+export interface GeodeticAircraft {
+  ident: string;
+  lat_deg: number;
+  lon_deg: number;
+  heading_deg: number;
+  tas_mps: number;
+  max_bank_deg: number;
+  altitude_m?: number | null;
 }
 
 /** A corner of a cell, placed on the earth (WGS84). */
@@ -1131,6 +1203,18 @@ export interface HeadingOrder {
 export interface HeadingReference {
   kind: "hold_heading";
   heading_deg: number;
+}
+
+/** An aircraft asks for what it declares that it will fly. */
+export interface IntentClearanceRequest {
+  aircraft: LocalAircraft | GeodeticAircraft;
+  intent: IntentPiece[];
+  clearance_type?: "capture_then_maintain";
+  traffic_id: string;
+  assigned_spacing_goal: SpacingGoal;
+  min_separation_m: number;
+  wind?: WindBody;
+  sky?: string;
 }
 
 /** The leader's intent is received (`True`) or withdrawn (`False`). */
@@ -1372,6 +1456,17 @@ export interface LinkResult {
   by_hand?: FlownByHand[];
 }
 
+/** Who asks, now, in the sky of a flight. */
+export interface LocalAircraft {
+  ident: string;
+  x_m: number;
+  y_m: number;
+  heading_deg: number;
+  tas_mps: number;
+  max_bank_deg: number;
+  altitude_m?: number | null;
+}
+
 /** A round cell, at t = 0. */
 export interface LocalDisc {
   x_m: number;
@@ -1576,6 +1671,26 @@ export interface PairCard {
   until_s: number;
 }
 
+/**
+ * A path as an aircraft would really fly it, rolls and braking included.
+ *
+ * Columns of equal length; points close enough to draw straight lines between.
+ */
+export interface PathAhead {
+  /** Flight times, ascending. */
+  times_s: number[];
+  /** East. */
+  x_m: number[];
+  /** North. */
+  y_m: number[];
+  /** Where the nose points. */
+  heading_deg: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number[];
+}
+
 /** A place and a heading along a path, over the ground. */
 export interface PathPoint {
   /** From the beginning of the path. */
@@ -1698,6 +1813,8 @@ export interface PlanProposed {
   flown_least_m: number;
   /** Other paths to the slot that could be flown, fastest first: at most three. */
   others: OtherPathCard[];
+  /** What would be flown, as forecast; none in recordings of before. */
+  ahead?: PathAhead[];
 }
 
 /**
@@ -2255,6 +2372,14 @@ export interface Tick {
   paused: boolean;
   ended: boolean;
   documents: Document[];
+  started_at?: string;
+  version?: string;
+}
+
+/** A time to keep behind the traffic. */
+export interface TimeGoal {
+  type: "time";
+  value_s: number;
 }
 
 /** A track in columns of equal length: straight lines between knots. */
@@ -2266,6 +2391,12 @@ export interface TrackCard {
   y_m: number[];
   /** Pressure altitude in the middle of what is possible; left out where it is not known. */
   altitude_m?: number[];
+  /** It is at least this high … */
+  low_m?: number[];
+  /** … and at most this; both are left out with the altitude. */
+  high_m?: number[];
+  /** What is flown strays from these lines by no more than this, at its time. */
+  error_m?: number;
   /** WGS84; there if the situation came with latitudes. */
   lat_deg?: number[];
   /** WGS84; there if the situation came with latitudes. */

@@ -7,7 +7,8 @@ from typing import Any
 
 from fastapi import APIRouter, Request
 from pydantic import BaseModel
-from pydantic.json_schema import models_json_schema
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue, models_json_schema
+from pydantic_core.core_schema import TaggedUnionSchema
 from starlette.responses import HTMLResponse, Response
 
 from relguide.contract.messages import Tick
@@ -17,7 +18,7 @@ from relguide_server.flights.control import MOST_RATE
 from relguide_server.flights.frames import LONGEST, MOST
 from relguide_server.flights.hands import SILENCE
 from relguide_server.flights.stream import CLOSE_CODES
-from relguide_server.http.bodies import json_answer
+from relguide_server.http.etags import tagged_answer
 from relguide_server.http.page_style import STYLE, prose
 from relguide_server.http.proxy import root_of
 from relguide_server.http.security_headers import VERSION
@@ -50,13 +51,26 @@ HEARD: dict[str, tuple[type[BaseModel], str]] = {
 router = APIRouter(include_in_schema=False)
 
 
+class AsyncApiSchema(GenerateJsonSchema):
+    """Schemas without `discriminator`, which AsyncAPI takes for the name of a parent's property.
+
+    Each shape of a union has its kind as a constant, so the union says as much without it.
+    """
+
+    def tagged_union_schema(self, schema: TaggedUnionSchema) -> JsonSchemaValue:
+        """Any of some shapes."""
+        made = super().tagged_union_schema(schema)
+        made.pop("discriminator", None)
+        return made
+
+
 @router.get("/asyncapi.json")
 async def asyncapi(request: Request) -> Response:
     """The document, for programs."""
     host = request.headers.get("host", "localhost")
     scheme = "wss" if request.url.scheme == "https" else "ws"
     server = {"host": host, "protocol": scheme, "pathname": root_of(request.scope) or "/"}
-    return json_answer({**asyncapi_document(), "servers": {"this": server}})
+    return tagged_answer(request, {**asyncapi_document(), "servers": {"this": server}})
 
 
 @router.get("/docs/stream")
@@ -71,10 +85,11 @@ def asyncapi_document() -> dict[str, Any]:
     _, schemas = models_json_schema(
         [(shape, "validation") for shape, _ in (SENT | HEARD).values()],
         ref_template="#/components/schemas/{model}",
+        schema_generator=AsyncApiSchema,
     )
     codes = "\n".join(f"- {code}: {meaning}" for code, meaning in CLOSE_CODES.items())
     return {
-        "asyncapi": "3.0.0",
+        "asyncapi": "3.1.0",
         "info": {"title": "relguide", "version": VERSION, "description": DESCRIPTION},
         "defaultContentType": "application/json",
         "channels": {

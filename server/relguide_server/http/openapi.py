@@ -11,16 +11,21 @@ from importlib.resources import files
 from typing import Any
 
 import orjson
-from fastapi import FastAPI
+from fastapi import FastAPI, Request
 from fastapi.openapi.utils import get_openapi
 from fastapi.routing import APIRoute, iter_route_contexts
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
+from starlette.responses import Response
 
 from relguide_server.http.access import CALCULATIONS, OPEN, SAFE
 from relguide_server.http.bodies import JSON
 from relguide_server.http.errors import PROBLEM_JSON, Problem
+from relguide_server.http.etags import tagged_answer
+from relguide_server.http.idempotency import HEADER, LONGEST, SOUND, IdempotentRoute
+from relguide_server.http.kept_answers import REPLAYED
 from relguide_server.http.problem_kinds import KINDS, PAGE
+from relguide_server.http.proxy import root_of
 from relguide_server.http.query import refuse_unknown_parameters
 
 EXAMPLES = "api_examples.json"
@@ -30,6 +35,7 @@ TAGS = {
     "plans": "Plans with their proof, of one situation or of many.",
     "areas": "How long it takes to converge, from all places round a leader.",
     "flights": "Flights that are watched and commanded, and flights flown to their end at once.",
+    "clearances": "Manoeuvres that crews ask air traffic control for, and what becomes of them.",
     "picture": "Traffic and closed airspaces that others report.",
     "records": "What was flown and planned: to search, replay, export and remove.",
     "service": "Whether the service is well.",
@@ -48,9 +54,21 @@ HEADERS = {
     "Retry-After": "When to try again [s].",
     "WWW-Authenticate": "`Bearer`: how to show a token.",
     "ETag": "Names this very content: `If-None-Match` asks whether it is still the same.",
+    "Cache-Control": "`no-cache`: it may be kept, and is asked for again by its `ETag`.",
     "Content-Disposition": "A name for the file.",
+    REPLAYED: "`true` where the request had been answered before, and this is that answer.",
 }
 """All headers of answers that the API gives a meaning, and what they say."""
+TAGGED = ("ETag", "Cache-Control")
+"""Headers of an answer with a tag."""
+KEY = {
+    "name": HEADER,
+    "in": "header",
+    "required": False,
+    "description": "Chosen anew for each request. One that is sent again with the same key is not "
+    "done again: for 24 hours it gets the first answer, if that was below 500.",
+    "schema": {"type": "string", "minLength": 1, "maxLength": LONGEST, "pattern": SOUND},
+}
 _EVERY = ("X-Request-ID", "Relguide-Version")
 _BY_STATUS = {"401": ("WWW-Authenticate",), "429": ("Retry-After",), "503": ("Retry-After",)}
 
@@ -101,9 +119,22 @@ def response(
     return {status: {**said, "headers": header_references(headers)}}
 
 
+def tagged_response(description: str, schema: dict[str, Any]) -> dict[int | str, dict[str, Any]]:
+    """The entries of `responses=` of a route that answers by `tagged_answer`."""
+    return {**response(200, description, schema, headers=TAGGED), **NOT_MODIFIED}
+
+
 def header_references(names: Iterable[str]) -> dict[str, Any]:
     """Headers of an answer, of `HEADERS`."""
     return {name: {"$ref": _HEADER.format(name=name)} for name in names}
+
+
+NOT_MODIFIED: dict[int | str, dict[str, Any]] = {
+    304: {
+        "description": "It is the one that you have.",
+        "headers": header_references(TAGGED),
+    }
+}
 
 
 def problem_responses(*kinds: str) -> dict[int | str, dict[str, Any]]:
@@ -135,14 +166,23 @@ def name_of(route: APIRoute) -> str:
 
 
 def describe(app: FastAPI) -> None:
-    """Give the app its OpenAPI document."""
+    """Give the app its OpenAPI document, at `/openapi.json`."""
 
     def openapi() -> dict[str, Any]:
         if app.openapi_schema is None:
             app.openapi_schema = _document(app)
         return app.openapi_schema
 
+    @cache
+    def written(root: str) -> bytes:
+        servers = {"servers": [{"url": root}]} if root else {}
+        return orjson.dumps({**openapi(), **servers})
+
+    async def show(request: Request) -> Response:
+        return tagged_answer(request, written(root_of(request.scope)))
+
     app.openapi = openapi  # type: ignore[method-assign]
+    app.add_route("/openapi.json", show, include_in_schema=False)
 
 
 def _document(app: FastAPI) -> dict[str, Any]:
@@ -201,6 +241,10 @@ def _complete(operation: dict[str, Any], method: str, route: Any) -> None:
         kinds.append("foreign-page")
         if not route.path.startswith(CALCULATIONS):
             kinds.append("not-allowed")
+    takes_key = method == "POST" and isinstance(route.original_route, IdempotentRoute)
+    if takes_key:
+        kinds.append("key-reused")
+        operation["parameters"] = [*operation.get("parameters", []), KEY]
     asked = [part.call for part in route.dependant.dependencies]
     if refuse_unknown_parameters in asked:
         kinds.append("unknown-parameter")
@@ -214,7 +258,8 @@ def _complete(operation: dict[str, Any], method: str, route: Any) -> None:
         known["description"] = ", or ".join(said["summary"] for said in examples.values())
     operation["responses"] = dict(sorted(answers.items()))
     for status, answer in operation["responses"].items():
-        names = (*_EVERY, *_BY_STATUS.get(status, ()))
+        replayed = (REPLAYED,) if takes_key and status < "5" else ()
+        names = (*_EVERY, *_BY_STATUS.get(status, ()), *replayed)
         answer["headers"] = {**answer.get("headers", {}), **header_references(names)}
         if (example := _examples().get(operation["operationId"])) and status.startswith("2"):
             answer["content"][JSON]["example"] = example

@@ -19,7 +19,14 @@ from starlette.requests import HTTPConnection
 from relguide.units import Second
 from relguide_server.http.errors import Refusal
 from relguide_server.records.clock import Clock
-from relguide_server.records.entries import Began, Commanded, FlightCard, PlanAsked, Unavailable
+from relguide_server.records.entries import (
+    Began,
+    ClearanceNoted,
+    Commanded,
+    FlightCard,
+    PlanAsked,
+    Unavailable,
+)
 from relguide_server.records.recorder import FlightRecorder, Recorder
 from relguide_server.records.writer import RetentionLimits, Writer
 
@@ -75,10 +82,11 @@ class RecordsService:
 
     def begin(self, card: FlightCard) -> Recorder:
         """Record a flight from now on."""
+        now = self._clock.now()
         if self._writer is None:
-            return Recorder()
-        self._writer.put(Began(card, self._clock.now()))
-        return FlightRecorder(card.id, self._writer, self._clock)
+            return Recorder(now)
+        self._writer.put(Began(card, now))
+        return FlightRecorder(card.id, self._writer, self._clock, started_at=now)
 
     async def saved(self) -> bool:
         """Wait until all that was begun and commanded so far is saved; false if it cannot be."""
@@ -92,6 +100,11 @@ class RecordsService:
                     flight_id=flight_id, at=self._clock.now(), t=t, body=body, sent_by=sent_by
                 )
             )
+
+    def note_clearance(self, noted: ClearanceNoted) -> None:
+        """Record what is new of a clearance."""
+        if self._writer is not None:
+            self._writer.put(noted)
 
     def note_plan(
         self, body: bytes, *, planner: str, status: str, seconds: Second, asked_by: str
@@ -169,6 +182,7 @@ class RecordsService:
             ("documents_lost", counts.documents_lost, "Documents not kept."),
             ("commands_lost", counts.commands_lost, "Commands not kept."),
             ("plans_lost", counts.plans_lost, "Plans not kept, too many a second."),
+            ("clearances_lost", counts.clearances_lost, "Changes of clearances not kept."),
         ):
             yield CounterMetricFamily(f"relguide_records_{name}", said, value=value)
 
@@ -196,13 +210,13 @@ def records_service(
     if records == "off":
         return RecordsService(clock=clock)
     run, started_at, software = secrets.token_hex(8), time.time(), version("relguide")
-    folder = Path(data) if data else user_data_path("relguide", appauthor=False)
 
     def open_store() -> "Store":
         from relguide_server.records.database import url_of
         from relguide_server.records.store import Store
 
-        return Store(url_of(database_url, folder), run=run, version=software, started_at=started_at)
+        url = url_of(database_url, _folder(data))
+        return Store(url, run=run, version=software, started_at=started_at)
 
     writer = Writer(
         open_store,
@@ -212,6 +226,23 @@ def records_service(
         clock=clock,
     )
     return RecordsService(writer, plans=record_plans, clock=clock)
+
+
+def records_outlook(*, records: str, database_url: str, data: str) -> str:
+    """What a start with these settings would do to the records, in a sentence.
+
+    Raises:
+        Unavailable: if they could not be kept.
+    """
+    if records == "off":
+        return OFF
+    from relguide_server.records.database import outlook, url_of
+
+    return outlook(url_of(database_url, _folder(data)))
+
+
+def _folder(data: str) -> Path:
+    return Path(data) if data else user_data_path("relguide", appauthor=False)
 
 
 async def records_of(connection: HTTPConnection) -> RecordsService:
