@@ -17,6 +17,7 @@ from pydantic_core import to_json
 
 from relguide.atc.documents import ClearanceCard, PairCard, TrackCard
 from relguide.contract.geojson import DECIMALS, STRIDE, line_geometry
+from relguide.contract.messages import Placed
 from relguide.contract.picture_bodies import moment
 from relguide.planning.frames import LocalPlane
 from relguide.units import Second
@@ -25,6 +26,8 @@ ClearanceForm = Literal["geojson", "czml", "kml", "csv"]
 PLACELESS: tuple[ClearanceForm, ...] = ("csv",)
 """Forms that need no place on the earth."""
 KML, GX = "http://www.opengis.net/kml/2.2", "http://www.google.com/kml/ext/2.2"
+SHIFTS = 20
+"""Each leaves a share of what the last one was off by: a tenth or so, 600 km away at 60° N."""
 COLOURS = {"aircraft": (100, 190, 255), "traffic": (255, 255, 255)}
 """Of who asks, and of who is followed: red, green, blue."""
 COLUMNS = (
@@ -95,6 +98,23 @@ def export_clearance(
             return _kml(card, routes, plane, about)
 
 
+def plane_of(card: ClearanceCard) -> LocalPlane | None:
+    """How the sky of a clearance that was read back lies on the earth, by its own first place.
+
+    `None` if it came without latitudes.
+    """
+    if not isinstance(card.route, Placed):
+        return None
+    x, y = card.route.x[0], card.route.y[0]
+    lat, lon = card.route.lat_deg[0], card.route.lon_deg[0]
+    middle = LocalPlane(*LocalPlane(lat, lon).to_geodetic(-x, -y))
+    for _ in range(SHIFTS):
+        # how far the place is off moves the middle
+        off = middle.to_local(lat, lon)
+        middle = LocalPlane(*middle.to_geodetic(off[0] - x, off[1] - y))
+    return middle
+
+
 def routes_of(card: ClearanceCard) -> tuple[Route, Route]:
     """Of who asks, and of who is followed."""
     return (
@@ -119,11 +139,10 @@ def _route(
         steps = max(ceil(apart / STRIDE), 1)
         span = track.t[k + 1] - track.t[k]
         t += [track.t[k] + span * (step + 1) / steps for step in range(steps)]
-    t = [round(value, 3) for value in t]
     return Route(
         ident=ident,
         role=role,
-        t=t,
+        t=[round(value, 3) for value in t],
         at=[moment(wall_clock(card, value)) for value in t],
         x=np.interp(t, track.t, track.x).tolist(),
         y=np.interp(t, track.t, track.y).tolist(),

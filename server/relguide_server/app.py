@@ -17,8 +17,8 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.outcome import Planner
+from relguide_server.atc import export_routes, traffic_routes
 from relguide_server.atc import routes as clearance_routes
-from relguide_server.atc import traffic_routes
 from relguide_server.atc.desk import Desk
 from relguide_server.atc.feeds.feeds import Feeds
 from relguide_server.atc.reports import Reports
@@ -177,6 +177,7 @@ def create_app(
         record_routes.router,
         scene_relay.router,
         clearance_routes.router,
+        export_routes.router,
         traffic_routes.router,
         stream_docs.router,
         problem_docs.router,

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from dataclasses import replace
 from math import cos, sin, tau
 from xml.etree import ElementTree
 
@@ -18,8 +19,10 @@ from relguide.atc.documents import (
     TrackCard,
     ValidationCard,
 )
-from relguide.contract.clearance_exports import COLUMNS, export_clearance
+from relguide.contract.clearance_exports import COLUMNS, export_clearance, plane_of
+from relguide.contract.messages import card_from_wire
 from relguide.contract.picture_bodies import moment, utc
+from relguide.contract.wire import placed_to_wire
 from relguide.planning.frames import LocalPlane
 
 PLANE = LocalPlane(50.0, 8.0)
@@ -145,3 +148,16 @@ def test_what_lies_nowhere_has_no_place() -> None:
     for form in ("geojson", "czml", "kml"):
         with pytest.raises(ValueError, match="lies nowhere on the earth"):
             export_clearance(clearance(), None, form, version="0.2.0")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("plane", [PLANE, LocalPlane(-70.0, 179.9), LocalPlane(0.0, 0.0)])
+def test_how_it_lies_on_the_earth_is_found_again(plane: LocalPlane) -> None:
+    far_away = replace(
+        clearance(),
+        route=TrackCard(t=(BEGIN, BEGIN + 60.0), x=(-400e3, -390e3), y=(300e3, 300e3)),
+    )
+    card = card_from_wire(ClearanceCard, placed_to_wire(far_away, plane.to_geodetic))
+    found = plane_of(card)
+    assert found is not None
+    assert (found.lat_deg, found.lon_deg) == pytest.approx((plane.lat_deg, plane.lon_deg), abs=1e-7)
+    assert plane_of(clearance()) is None
