@@ -78,6 +78,7 @@ TABLE = {
     ("GET", "/api/v1/clearances"): "view",
     ("POST", "/api/v1/clearances"): "fly",
     ("GET", "/api/v1/clearances/{clearance_id}"): "view",
+    ("GET", "/api/v1/clearances/{clearance_id}/export"): "view",
     ("POST", "/api/v1/clearances/{clearance_id}/answers"): "answer",
     ("POST", "/api/v1/clearances/{clearance_id}/replies"): "fly",
     ("GET", "/api/v1/traffic"): "view",
