@@ -156,7 +156,8 @@ async function download(path: string, patience: number): Promise<Answer<Blob>> {
   }
 }
 
-async function request<T>(
+/** Asks the service; `patience` in ms. */
+export async function request<T>(
   method: string,
   path: string,
   body?: unknown,
