@@ -6,7 +6,6 @@ import { Card } from "./card";
 import { Header } from "./header";
 import { Help } from "./help";
 import { SkyMap } from "./map/map";
-import { PairTool } from "./pair-tool";
 import { RequestList } from "./requests";
 import type { Station } from "./station";
 import { Strip } from "./strip";
@@ -21,7 +20,6 @@ export function Page({ station, actions }: { station: Station; actions: Actions 
       <main>
         <div class="atc-left">
           <SkyMap station={station} />
-          {station.pairToolOpen.value && <PairTool station={station} />}
           <Card station={station} />
         </div>
         <div class="atc-right">

@@ -11,14 +11,16 @@ export interface Conflict {
   readonly after: number;
 }
 
-/** All pairs of what is asked for and flown, the soonest first; those that are past are left out. */
+/** All pairs of what is asked for and flown: those too close first, the soonest first; none that is past. */
 export function conflictsOf(sky: Sky): Conflict[] {
   return [...sky.clearances.values()]
     .filter((card) => !isOver(card))
     .flatMap((card) => pairsOf(card).map((pair) => ({ card, pair, after: afterOf(pair, sky.t) })))
     .filter(({ pair }) => pair.until_s >= sky.t)
-    .sort((a, b) => a.after - b.after);
+    .sort((a, b) => ORDER[a.pair.certainty] - ORDER[b.pair.certainty] || a.after - b.after);
 }
+
+const ORDER = { certain: 0, possible: 1, clear: 2 } as const;
 
 /** Those of the last validation. */
 export function pairsOf(card: ClearanceCard): readonly PairCard[] {

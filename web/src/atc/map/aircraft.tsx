@@ -1,7 +1,6 @@
 /** Aircraft: where they are, were, and will be in a minute; who they are. */
 
-import { useRef } from "preact/hooks";
-import { type Label, LINE_HEIGHT, type Placement, placeLabels } from "../../nd/labels";
+import type { Label } from "../../nd/labels";
 import { ink } from "../../nd/style";
 import { within } from "../../nd/view";
 import { formatMiles } from "../../units";
@@ -12,15 +11,13 @@ import type { Station } from "../station";
 import { apart } from "../tracks";
 import { isOver } from "../urgency";
 import { flightText, STATES } from "../words";
-import { glassOf, lineOf, type MapView, toPoint } from "./view";
+import { glassOf, lineOf, type MapView, toPoint, typeOf } from "./view";
 
 /** A speed vector is so long [s]. */
-const VECTOR = 60;
+export const VECTOR = 60;
 /** What was seen longer ago is marked as old [s]. */
 const OLD = 10;
 const CHEVRON = "M0 -9L7 8L0 4L-7 8Z";
-/** Size of the labels' type [px]. */
-const TYPE = 12.5;
 /** With more aircraft than this, those that no clearance is about may lose their label. */
 const MANY = 40;
 
@@ -101,54 +98,9 @@ function clearanceOf(sky: Sky, ident: string): ClearanceCard | null {
   return own.find((each) => !isOver(each)) ?? null;
 }
 
-/** Labels, none over another, each tied to its aircraft by a line. */
-export function Labels({ station }: { station: Station }) {
-  const before = useRef<ReadonlyMap<string, Placement>>(new Map());
-  const { view, store, selected } = station;
+/** The label of each that is seen: first that of the clearance that is chosen, then those of the others. */
+export function aircraftLabels({ view, store, selected }: Station): Label[] {
   const sky = store.sky.value;
-  const glass = glassOf(view);
-  const labels = labelsOf(sky, view, selected.value);
-  const boxes = labels.map(({ at }) => ({ x: at.x - 9, y: at.y - 9, width: 18, height: 18 }));
-  const points = sky.aircraft.map((each) => toPoint(view, straightOn(each, VECTOR / 2)));
-  const isSeen = (point: { x: number; y: number }) => within(glass, point);
-  const placed = placeLabels(labels, { isSeen, boxes, points }, before.current);
-  before.current = placed;
-  return (
-    <g class="atc-labels" font-size={TYPE}>
-      {labels.map((label) => {
-        const place = placed.get(label.id);
-        return place === undefined ? null : <Written key={label.id} label={label} place={place} />;
-      })}
-    </g>
-  );
-}
-
-function Written({ label, place }: { label: Label; place: Placement }) {
-  const { box } = place;
-  const edge = {
-    x: Math.min(Math.max(0, box.x), box.x + box.width),
-    y: Math.min(Math.max(0, box.y), box.y + box.height),
-  };
-  return (
-    <g transform={`translate(${label.at.x.toFixed(1)} ${label.at.y.toFixed(1)})`}>
-      <path class="tie" d={`M0 0L${edge.x.toFixed(1)} ${edge.y.toFixed(1)}`} />
-      <text>
-        {label.lines.map(({ text, colour }, k) => (
-          <tspan
-            key={text}
-            x={box.x.toFixed(1)}
-            y={(box.y + (k + 0.82) * TYPE * LINE_HEIGHT).toFixed(1)}
-            fill={ink(colour)}
-          >
-            {text}
-          </tspan>
-        ))}
-      </text>
-    </g>
-  );
-}
-
-function labelsOf(sky: Sky, view: MapView, selected: string | null): Label[] {
   const glass = glassOf(view);
   const labels = sky.aircraft
     .map((card) => ({ card, clearance: clearanceOf(sky, card.ident), at: toPoint(view, card) }))
@@ -159,9 +111,9 @@ function labelsOf(sky: Sky, view: MapView, selected: string | null): Label[] {
       lines: linesOf(sky, card, clearance),
       side: card.track_deg + 120,
       gap: 16,
-      size: TYPE,
+      size: typeOf(view),
       optional: clearance === null && sky.aircraft.length > MANY,
-      rank: clearance === null ? 2 : clearance.id === selected ? 0 : 1,
+      rank: clearance === null ? 2 : clearance.id === selected.value ? 0 : 1,
     }));
   return labels.sort((a, b) => a.rank - b.rank);
 }

@@ -1,13 +1,19 @@
 /** What lies under the traffic: range rings round the middle, a scale, closed airspaces. */
 
 import { ticksOf } from "../../charts/scale";
+import type { Label } from "../../nd/labels";
+import { type Point, within } from "../../nd/view";
 import { formatMiles, NM } from "../../units";
+import type { AirspaceCard } from "../../wire";
 import type { Station } from "../station";
-import { lineOf, toPoint } from "./view";
+import type { Place } from "../tracks";
+import { glassOf, lineOf, toPoint, typeOf } from "./view";
 
 /** So many rings are about right, and the scale is about so long [px]. */
-const RINGS = 4;
+const RINGS = 6;
 const SCALE = 110;
+/** Lengths of the scale [NM]. */
+const LENGTHS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500];
 
 export function Rings({ station: { view } }: { station: Station }) {
   const { width, height } = view.size.value;
@@ -36,7 +42,7 @@ export function Rings({ station: { view } }: { station: Station }) {
 export function Scale({ station: { view } }: { station: Station }) {
   const { height } = view.size.value;
   const most = SCALE / view.scale.value / NM;
-  const length = ticksOf(0, most, 1).at(-1) || most;
+  const length = LENGTHS.findLast((each) => each <= most) ?? most;
   const px = length * NM * view.scale.value;
   return (
     <g class="atc-scale" transform={`translate(14 ${height - 14})`}>
@@ -51,25 +57,41 @@ export function Scale({ station: { view } }: { station: Station }) {
 export function Airspaces({ station: { view, store } }: { station: Station }) {
   return (
     <g class="atc-airspaces">
-      {store.sky.value.airspaces.map(({ ident, x_m, y_m, text, closed }) => {
-        const places = x_m.map((x, k) => ({ x_m: x, y_m: y_m[k] ?? 0 }));
-        const count = Math.max(1, places.length);
-        const { x, y } = toPoint(view, {
-          x_m: x_m.reduce((sum, each) => sum + each, 0) / count,
-          y_m: y_m.reduce((sum, each) => sum + each, 0) / count,
-        });
-        return (
-          <g key={ident} class={closed ? "closed" : "open"}>
-            <path d={`${lineOf(view, places)}Z`} />
-            <text x={x} y={y}>
-              <tspan x={x}>{closed ? `${ident} CLOSED` : ident}</tspan>
-              <tspan x={x} dy="1.2em">
-                {text}
-              </tspan>
-            </text>
-          </g>
-        );
-      })}
+      {store.sky.value.airspaces.map((each) => (
+        <path
+          key={each.ident}
+          class={each.closed ? "closed" : "open"}
+          d={`${lineOf(view, cornersOf(each))}Z`}
+        />
+      ))}
     </g>
   );
+}
+
+function cornersOf({ x_m, y_m }: AirspaceCard): Place[] {
+  return x_m.map((x, k) => ({ x_m: x, y_m: y_m[k] ?? 0 }));
+}
+
+/** What an airspace is called, and when and where it is closed. */
+export function airspaceLabels({ view, store }: Station): Label[] {
+  return store.sky.value.airspaces.flatMap((each) => {
+    const points = cornersOf(each).map((place) => toPoint(view, place));
+    const mean = (part: (point: Point) => number) =>
+      points.reduce((sum, point) => sum + part(point), 0) / Math.max(1, points.length);
+    const at = { x: mean(({ x }) => x), y: mean(({ y }) => y) };
+    if (!within(glassOf(view), at)) return [];
+    const name = each.closed ? `${each.ident} CLOSED` : each.ident;
+    return {
+      id: `airspace ${each.ident}`,
+      at,
+      lines: [
+        { text: name, colour: each.closed ? "caution" : "superseded" },
+        { text: each.text, colour: "label" },
+      ],
+      side: 180,
+      gap: 0,
+      size: typeOf(view) - 1,
+      optional: false,
+    };
+  });
 }

@@ -1,10 +1,12 @@
 /** The map: one SVG that fills its place. */
 
 import { useLayoutEffect, useRef } from "preact/hooks";
+import { PairTool } from "../pair-tool";
 import { type Station, tapOn } from "../station";
-import { Dots, Labels, Symbols } from "./aircraft";
+import { Dots, Symbols } from "./aircraft";
 import { followGestures } from "./gestures";
 import { Airspaces, Rings, Scale } from "./ground";
+import { Labels } from "./labels";
 import { Measure } from "./measure";
 import { PairGeometry } from "./pair";
 import { Routes } from "./routes";
@@ -51,6 +53,7 @@ export function SkyMap({ station }: { station: Station }) {
           <Scale station={station} />
         </svg>
       </div>
+      {station.pairToolOpen.value && <PairTool station={station} />}
       <div class="atc-zoom">
         <button type="button" aria-label="Zoom in" onClick={() => zoom(view, 1.5)}>
           +

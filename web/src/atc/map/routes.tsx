@@ -1,12 +1,14 @@
 /** What is asked for and flown: pursuers' routes in the pattern of their state, and their leaders'. */
 
+import type { Label } from "../../nd/labels";
 import { ink } from "../../nd/style";
+import type { Point } from "../../nd/view";
 import type { ClearanceCard, TrackCard } from "../../wire";
 import type { Station } from "../station";
 import { partOf, placeOn } from "../tracks";
 import { isOver } from "../urgency";
 import { STATES, timeText } from "../words";
-import { lineOf, type MapView, toPoint } from "./view";
+import { lineOf, type MapView, toPoint, typeOf } from "./view";
 
 const LEADER_DASH = "12 4 2 4";
 
@@ -45,7 +47,6 @@ function Route(props: { card: ClearanceCard; station: Station; isChosen: boolean
         <g class="join" stroke={ink(colour)} transform={`translate(${join.x} ${join.y})`}>
           <circle r={6} />
           <circle r={1.5} fill={ink(colour)} />
-          {isChosen && <text x={10} y={16}>{`JOIN ${timeText(card.sky, card.joins_s)}`}</text>}
         </g>
       )}
     </g>
@@ -67,3 +68,35 @@ function Alternative({ station, view }: { station: Station; view: MapView }) {
   const d = lineOf(view, partOf(route, route.t_s[0] ?? 0, route.t_s.at(-1) ?? 0));
   return <path class="alternative" stroke={ink("managed")} stroke-dasharray="9 6" d={d} />;
 }
+
+/** When the one that is chosen joins. */
+export function joinLabel({ view, store, card }: Station): Label | null {
+  const chosen = card.value;
+  if (chosen === null || chosen.joins_s <= store.sky.value.t) return null;
+  return {
+    id: "join",
+    at: toPoint(view, placeOn(chosen.route, chosen.joins_s)),
+    lines: [
+      {
+        text: `JOIN ${timeText(chosen.sky, chosen.joins_s)}`,
+        colour: STATES[chosen.state].colour,
+      },
+    ],
+    side: 120,
+    gap: 10,
+    size: typeOf(view),
+    optional: false,
+  };
+}
+
+/** Points along the route of the one that is chosen [px]: better no text over them. */
+export function routePoints({ view, card }: Station): Point[] {
+  if (card.value === null) return [];
+  const { route } = card.value;
+  const [from, to] = [route.t_s[0] ?? 0, route.t_s.at(-1) ?? 0];
+  return Array.from({ length: POINTS }, (_, k) =>
+    toPoint(view, placeOn(route, from + (k * (to - from)) / POINTS)),
+  );
+}
+
+const POINTS = 60;

@@ -91,3 +91,8 @@ export function lineOf(view: MapView, places: readonly Place[]): string {
 export function glassOf({ size }: MapView): Box {
   return { x: 0, y: 0, ...size.value };
 }
+
+/** Size of the map's type [px]: smaller where there is little room. */
+export function typeOf({ size }: MapView): number {
+  return size.value.width < 500 ? 11 : 12.5;
+}
