@@ -22,9 +22,11 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 from relguide_server.app import create_app
 from relguide_server.http import health
+from relguide_server.jobs.worker_pool import PULSE
 from relguide_server.settings import ServiceSettings
 
-from tests.server.serving import ideal_app, serve
+from tests.server.serving import ideal_app, ideal_catalogue, serve
+from tests.server.test_service_life import wait_until
 from tools.container.composition import composition
 from tools.container.dockerfile import ROOT, copied, steps
 
@@ -153,6 +155,20 @@ def test_who_cannot_plan_is_not_healthy() -> None:
 
     with serve(create_app(ServiceSettings(workers=0), planner=broken)) as address:
         assert health.main([f"http://{address}"]) == 1
+
+
+def test_whose_workers_are_frozen_is_not_healthy() -> None:
+    app = create_app(ServiceSettings(workers=2), catalogue=ideal_catalogue())
+    with serve(app) as address:
+        wait_until(lambda: len(app.state.workers.processes) == 2)
+        wait_until(lambda: health.main([f"http://{address}"]) == 0)
+        for process in app.state.workers.processes:
+            os.kill(process, signal.SIGSTOP)
+        time.sleep(PULSE)
+        began = time.monotonic()
+        assert health.main([f"http://{address}"]) == 1
+        assert time.monotonic() - began < health.PATIENCE
+        wait_until(lambda: health.main([f"http://{address}"]) == 0)  # they are replaced
 
 
 DIGEST = "sha256:" + "0a" * 32

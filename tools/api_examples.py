@@ -16,11 +16,13 @@ from typing import Any
 
 import orjson
 from relguide_server.app import create_app
+from relguide_server.atc.traffic_routes import TRAFFIC_EXAMPLE
 from relguide_server.http import openapi
 from relguide_server.planning.plans import AMID, EXAMPLE
 from relguide_server.records.service import records_service
 from relguide_server.settings import ServiceSettings
 
+from relguide.contract.picture_bodies import moment
 from tests.server.serving import TestClient
 
 FILE = Path(openapi.__file__).with_name(openapi.EXAMPLES)
@@ -28,7 +30,7 @@ COMMAND = "python -m tools.api_examples"
 ID = "3f2a9c0d71be"
 """What every flight is called in the examples."""
 WHEN = "2026-11-22T09:30:00.000+00:00"
-VARYING = {"compute_ms": 0.09, "wall_s": 0.8, "bytes": 1800, "processes": 2}
+VARYING = {"compute_ms": 0.09, "wall_s": 0.8, "bytes": 1800, "processes": 2, "age_s": 0.4}
 """What no two runs have alike."""
 GRID = {"columns": 4, "rows": 4, "width_m": 60e3, "height_m": 60e3}
 STRAIGHT = {**EXAMPLE, "leader": {**EXAMPLE["leader"], "intent": []}}
@@ -52,6 +54,11 @@ def ask(client: TestClient) -> dict[str, Any]:
         "simulate_flights": client.post(
             "/api/v1/simulations", json=[{"scenario": "fig_6b"}]
         ).json(),
+    }
+    traffic = {**TRAFFIC_EXAMPLE, "as_of": moment(time.time())}
+    found |= {
+        "put_traffic": client.put("/api/v1/traffic", json=traffic).json(),
+        "show_traffic": client.get("/api/v1/traffic").json(),
     }
     started = client.post("/api/v1/flights", json={"scenario": "fig_6b", "paused": True}).json()
     flight = f"/api/v1/flights/{started['id']}"

@@ -56,7 +56,7 @@ def install_packages(web: Path, *, tools: bool = False) -> None:
 
     Args:
         web: the folder.
-        tools: whether to fetch what checks and tests the page, too (110 MB more).
+        tools: whether to fetch what checks and tests the page, too (200 MB more).
     """
     lock = web / "package-lock.json"
     stamp = web / "node_modules" / ".lock"

@@ -31,6 +31,12 @@ class TrackCard:
     """North."""
     altitude: tuple[Metre, ...] = field(default=(), metadata=LEFT_OUT)
     """Pressure altitude in the middle of what is possible; left out where it is not known."""
+    low: tuple[Metre, ...] = field(default=(), metadata=LEFT_OUT)
+    """It is at least this high …"""
+    high: tuple[Metre, ...] = field(default=(), metadata=LEFT_OUT)
+    """… and at most this; both are left out with the altitude."""
+    error: Metre = field(default=0.0, metadata=LEFT_OUT)
+    """What is flown strays from these lines by no more than this, at its time."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -153,7 +159,7 @@ class Deviation:
     """Beside the path, from D, from the level [m]; before or behind [s]; of a turn how late [s]."""
     unit: Literal["m", "s"]
     since: Second
-    """Since when it is at this level."""
+    """Since when it is at this level or above."""
     message: str
 
 
@@ -188,6 +194,10 @@ class ClearanceCard:
     joins: Second
     route: TrackCard
     leader_route: TrackCard
+    bank: Radian = field(default=0.0, metadata=LEFT_OUT)
+    """That its turns need; left out where it is not known."""
+    max_bank: Radian = field(default=0.0, metadata=LEFT_OUT)
+    """That the aircraft has; left out where it is not known."""
     validation: tuple[ValidationCard, ...]
     """The last one; none before the first."""
     deviations: tuple[Deviation, ...]

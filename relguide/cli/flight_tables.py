@@ -13,6 +13,7 @@ from relguide.contract.flight_summary import FlightSummary, SummaryEvent
 from relguide.flying.documents import (
     Alert,
     AssignmentChanged,
+    ClearanceNews,
     ControlChanged,
     EngagementChanged,
     LeaderChanged,
@@ -83,6 +84,8 @@ def _event(event: SummaryEvent) -> tuple[str, str, str]:
             what = "autopilot" if autopilot else "flown by hand"
         case AssignmentChanged():
             what = "assignment"
+        case ClearanceNews(clearance=status):
+            what = f"clearance: {status}"
         case PlanRefused():
             what = "plan refused"
         case ModeChanged(mode=mode):

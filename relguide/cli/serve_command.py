@@ -3,7 +3,6 @@
 import argparse
 import socket
 from importlib import import_module
-from ipaddress import ip_address
 from textwrap import fill, indent
 from typing import Any
 
@@ -59,37 +58,35 @@ def run(chosen: argparse.Namespace) -> int:
             probe.bind((host, port))
         except OSError as error:
             raise OSError(error.errno, error.strerror, f"{host}, port {port}") from None
-    app = _server("app").app_of(settings)
+    app = _server("app").app_of(settings, exposed=not _is_loopback(host))
     shown = f"[{host}]" if ":" in host else host
     write(f"relguide is on http://{shown}:{port}{settings.root_path} (Ctrl-C stops it)\n")
-    warning = open_to_all(host, settings.tokens)
+    warning = open_to_all(host, settings.tokens, settings.open_control)
     if warning:
         say(warning)
     _server("serving").serve(app, host=host, port=port)
     return DONE
 
 
-def open_to_all(host: str, tokens: str) -> str:
-    """What to say of a service that others may do everything with; empty if they may not.
+def open_to_all(host: str, tokens: str, open_control: str = "off") -> str:
+    """What to say of a service that others may ask without tokens; empty if they may not.
 
     Args:
         host: the address that it listens at.
         tokens: the setting.
+        open_control: the setting.
     """
-    if tokens or host == "localhost" or (_is_address(host) and ip_address(host).is_loopback):
+    if tokens or _is_loopback(host):
         return ""
-    return (
-        f"Everyone that reaches {host} may start, command and end flights, and delete records: "
-        "set RELGUIDE_TOKENS to allow it to some."
-    )
+    may = "start flights, and command and end their own"
+    if open_control == "on":
+        may = "start, command and end all flights, and delete records"
+    return f"Everyone that reaches {host} may {may}: set RELGUIDE_TOKENS to say who may do what."
 
 
-def _is_address(host: str) -> bool:
-    try:
-        ip_address(host)
-    except ValueError:
-        return False
-    return True
+def _is_loopback(host: str) -> bool:
+    found: bool = _server("http.access").is_loopback(host)
+    return found
 
 
 def _server(name: str) -> Any:

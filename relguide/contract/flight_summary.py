@@ -11,6 +11,7 @@ from relguide.flying.aircraft_documents import ClosestOther, LinkResult
 from relguide.flying.documents import (
     Alert,
     AssignmentChanged,
+    ClearanceNews,
     CommandGiven,
     ControlChanged,
     Document,
@@ -40,6 +41,7 @@ SummaryEvent = (
     | EngagementChanged
     | ControlChanged
     | AssignmentChanged
+    | ClearanceNews
     | PlanUnavailable
     | PlanRefused
     | ModeChanged
@@ -100,6 +102,7 @@ def summarize(documents: Iterable[Document]) -> FlightSummary:
                     | EngagementChanged()
                     | ControlChanged()
                     | AssignmentChanged()
+                    | ClearanceNews()
                     | PlanUnavailable()
                     | PlanRefused()
                     | ModeChanged()

@@ -15,6 +15,7 @@ from typing import (
     Any,
     Literal,
     Protocol,
+    TypeVar,
     Union,
     get_args,
     get_origin,
@@ -56,6 +57,7 @@ from relguide.flying.plan_documents import (
 from relguide.flying.verdicts import OptimalityCheck, PlannerVerdict
 from relguide.planning.limits import SPACING
 
+Card = TypeVar("Card")
 Extra = Literal["forbid", "ignore"]
 """What to do with fields that are not known: a newer program's are ignored by who only reads."""
 _TAGS = ("kind", "status", "rejected")
@@ -223,6 +225,23 @@ def _plan_answers() -> TypeAdapter[Any]:
     return TypeAdapter(PlanAnswer)
 
 
+def card_from_wire(
+    card_type: type[Card], source: bytes | str | Mapping[str, object], *, extra: Extra = "forbid"
+) -> Card:
+    """Read a card of that type back from its JSON, as `from_wire`.
+
+    Raises:
+        ContractError: naming each field that is wrong.
+    """
+    content = loads(source) if isinstance(source, bytes | str) else source
+    try:
+        model = model_of(card_type).model_validate(content, extra=extra)
+    except ValidationError as error:
+        raise refusal(error, content) from None
+    card: Card = _from_model(model)
+    return card
+
+
 def _from_model(model: BaseModel) -> Any:
     document_type = _DATACLASSES[type(model)]
     members = {f.name: _decode(f, getattr(model, f.wire_name)) for f in wire_fields(document_type)}
@@ -253,8 +272,8 @@ def _decode(field: WireField, value: Any) -> Any:
     if isinstance(value, BaseModel):
         return _from_model(value)
     if isinstance(value, list):
-        numbers = field.annotation == tuple[float, ...]
-        return tuple(map(field.decode_number if numbers else _from_model, value))
+        plain = field.annotation in (tuple[float, ...], tuple[str, ...])
+        return tuple(map(field.decode_number if plain else _from_model, value))
     if isinstance(field.annotation, type) and issubclass(field.annotation, Enum):
         return field.annotation(value)
     return field.decode_number(value)

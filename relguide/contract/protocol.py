@@ -8,6 +8,15 @@ from relguide.atc.documents import DeviationKind, DeviationLevel, ReasonCode
 from relguide.atc.documents import Verdict as AtcVerdict
 from relguide.contract.area_bodies import AreaAnswer, AreaRequest
 from relguide.contract.bodies import SituationBody
+from relguide.contract.clearance_bodies import (
+    AtcFrame,
+    ClearanceAnswer,
+    ClearanceList,
+    ClearanceReply,
+    ClearanceRequest,
+    ClearanceTrial,
+    SpacingGoal,
+)
 from relguide.contract.commands import Command
 from relguide.contract.crew_lines import CrewOrderLine
 from relguide.contract.intent_bodies import Piece
@@ -30,6 +39,7 @@ from relguide.contract.upstream import ControlAnswer, Upstream
 from relguide.flying.aircraft_documents import AlertLevel, AlertState, Spacing
 from relguide.flying.documents import (
     AlertSubject,
+    ClearanceStatus,
     Engagement,
     Fault,
     LeaderChange,
@@ -57,6 +67,10 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "Proof": (Proof, "Why a plan is optimal."),
     "PlanReason": (PlanReason, "Why a new plan was made."),
     "LeaderChange": (LeaderChange, "What is new about the leader."),
+    "ClearanceStatus": (
+        ClearanceStatus,
+        "What became of a manoeuvre that was sent to air traffic control.",
+    ),
     "Spacing": (Spacing, "What a link keeps once joined: a distance, or a time."),
     "AlertLevel": (
         AlertLevel,
@@ -86,11 +100,13 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "ReasonCode": (ReasonCode, "Why a manoeuvre is not acceptable, or a clearance ends."),
     "DeviationKind": (DeviationKind, "In what an aircraft is not where it is cleared to be."),
     "DeviationLevel": (DeviationLevel, "How far."),
+    "SpacingGoal": (SpacingGoal, "What is kept behind the traffic."),
+    "ClearanceRequest": (ClearanceRequest, "A request for a clearance."),
     "AtcDocument": (AtcDocumentModel, "What the controllers' stream brings."),
 }
 _ROOTS = (
     Tick, ControlAnswer, SituationBody, ScenarioList, FlightList, AreaRequest, AreaAnswer,
-    PlannerComparison,
+    PlannerComparison, AtcFrame, ClearanceAnswer, ClearanceList, ClearanceReply, ClearanceTrial,
 )  # fmt: skip
 
 

@@ -28,6 +28,7 @@ from relguide.contract.docs import field_docs
 from relguide.flying.plan_documents import ADDED, LEFT_OUT
 
 if TYPE_CHECKING:  # most of what can be written is never needed where plans are made
+    from relguide.atc.documents import AtcDocument, ClearanceCard, TrackCard, ValidationCard
     from relguide.flying.aircraft_documents import (
         AircraftCard,
         AircraftSample,
@@ -69,6 +70,10 @@ if TYPE_CHECKING:  # most of what can be written is never needed where plans are
         | Loss
         | ClosestOther
         | FlownByHand
+        | AtcDocument
+        | ClearanceCard
+        | TrackCard
+        | ValidationCard
     )
     """Parts of documents that also travel alone."""
 
@@ -136,6 +141,19 @@ def to_wire(document: "Document | Card") -> dict[str, Any]:
 def dumps(document: "Document | Card") -> bytes:
     """A document, or a card of one, as JSON text."""
     return to_json(to_wire(document))
+
+
+def placed_to_wire(document: "Document | Card", place: Place | None) -> dict[str, Any]:
+    """As `to_wire`, with the latitude and longitude of each point.
+
+    Args:
+        document: it.
+        place: x, y [m] → latitude, longitude [°]; `None` where that is not known.
+    """
+    written = to_wire(document)
+    if place is not None:
+        _add_places(written, place)
+    return written
 
 
 def tick(
@@ -270,6 +288,8 @@ def _conversion(name: str, annotation: Any, unit: str) -> tuple[Convert, Convert
         return _expect_finite, _keep
     if annotation in (int, bool, str):
         return annotation, _keep  # also turns numpy's scalars into Python's
+    if annotation == tuple[str, ...]:
+        return list, _keep
     if get_origin(annotation) is tuple:
         return _encode_all, _keep
     if is_dataclass(annotation):

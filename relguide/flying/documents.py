@@ -33,6 +33,7 @@ from relguide.flying.plan_documents import (
     LEFT_OUT,
     NoPlanCard,
     OtherPathCard,
+    PathAhead,
     PathPoint,
     PathSegment,
     PlanCard,
@@ -46,6 +47,10 @@ LeaderChange = Literal[
 """What is new of a leader; intent_broken: it does not fly what it declared."""
 EndReason = Literal["joined", "time_over", "recording_over", "plane_left"]
 """Why a flight ends."""
+ClearanceStatus = Literal[
+    "sent", "standby", "validated", "unable", "wilco", "flying", "deviating", "over"
+]
+"""What became of a manoeuvre that was sent to air traffic control."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,6 +148,8 @@ class PlanProposed:
     """Least separation of that forecast, which is what must keep d_min."""
     others: tuple[OtherPathCard, ...]
     """Other paths to the slot that could be flown, fastest first: at most three."""
+    ahead: tuple[PathAhead, ...] = field(default=(), metadata=LEFT_OUT)
+    """What would be flown, as forecast; none in recordings of before."""
     kind: Literal["plan_proposed"] = "plan_proposed"
 
 
@@ -207,6 +214,30 @@ class AssignmentChanged:
     """The speed that the crew has selected; none while guidance sets the speed."""
     message: str
     kind: Literal["assignment_changed"] = "assignment_changed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClearanceNews:
+    """What air traffic control says of the manoeuvre that a crew has sent it.
+
+    It comes from outside the flight, which flies the same without it.
+    """
+
+    t: Second
+    ident: str
+    """The pursuer's."""
+    clearance_id: str
+    clearance: ClearanceStatus
+    level: Literal["none", "advisory", "caution", "warning"]
+    """caution: something is to be seen to; warning: it is no longer cleared, or far off its path.
+    """
+    reason: str = field(default="", metadata=LEFT_OUT)
+    """Why, in a word: `separation`, `airspace`, `across` …; left out where nothing is wrong."""
+    message: str
+    """In a sentence."""
+    automated: bool
+    """Whether the automation answered in the controller's place."""
+    kind: Literal["clearance_news"] = "clearance_news"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -423,6 +454,7 @@ Document = (
     | CommandGiven
     | ControlChanged
     | AssignmentChanged
+    | ClearanceNews
     | PlanUnavailable
     | PlanRefused
     | ModeChanged

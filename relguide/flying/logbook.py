@@ -57,7 +57,7 @@ from relguide.flying.guidance.fan import Fan
 from relguide.flying.guidance.forecast import Forecast, rows_to_draw
 from relguide.flying.guidance.memory import Advice
 from relguide.flying.perception import CERTAIN, SURE, Spread
-from relguide.flying.plan_documents import PathPoint
+from relguide.flying.plan_documents import PathAhead, PathPoint
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
@@ -241,6 +241,7 @@ def event_document(t: Second, names: PairNames, event: Event) -> Document:
                 promised=committed.joins_at(ahead) - t,
                 flown_least=least,
                 others=other_path_cards(others, wind, later=later, most=GHOSTS),
+                ahead=(_path_ahead(t, ahead),),
             )
         case EngagementChange():
             return EngagementChanged(
@@ -309,22 +310,34 @@ def forecast_document(
         ahead: the flight ahead.
         spread: how uncertain is what it begins with.
     """
-    rows = ahead.own[max(round(t - ahead.t), 0) :]
-    kept = rows_to_draw(rows)
-    times, points = t + np.array(kept, dtype=float), rows[kept]
+    drawn = _path_ahead(t, ahead)
+    since = np.array(drawn.times) - t
     least, at = ahead.least(t)
     own, leader = _point_at(ahead.own, ahead.t, at), _point_at(ahead.leader, ahead.t, at)
     return ForecastChanged(
         t=t,
         ident=ident,
+        times=drawn.times,
+        x=drawn.x,
+        y=drawn.y,
+        heading=drawn.heading,
+        least_separation=least if least < inf else hypot(own.x - leader.x, own.y - leader.y),
+        pursuer_at_closest=own,
+        leader_at_closest=leader,
+        aside=() if spread == CERTAIN else tuple(_aside(since, ahead.join_time - t, spread)),
+    )
+
+
+def _path_ahead(t: Second, ahead: Forecast) -> PathAhead:
+    """A flight ahead from flight time t on: turns point by point, straights by their ends."""
+    rows = ahead.own[max(round(t - ahead.t), 0) :]
+    kept = rows_to_draw(rows)
+    times, points = t + np.array(kept, dtype=float), rows[kept]
+    return PathAhead(
         times=tuple(times.tolist()),
         x=tuple(points[:, 0].tolist()),
         y=tuple(points[:, 1].tolist()),
         heading=tuple(wrap(heading) for heading in points[:, 2].tolist()),
-        least_separation=least if least < inf else hypot(own.x - leader.x, own.y - leader.y),
-        pursuer_at_closest=own,
-        leader_at_closest=leader,
-        aside=() if spread == CERTAIN else tuple(_aside(times - t, ahead.join_time - t, spread)),
     )
 
 

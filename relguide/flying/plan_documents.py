@@ -257,6 +257,23 @@ class OtherPathCard:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class PathAhead:
+    """A path as an aircraft would really fly it, rolls and braking included.
+
+    Columns of equal length; points close enough to draw straight lines between.
+    """
+
+    times: tuple[Second, ...]
+    """Flight times, ascending."""
+    x: tuple[Metre, ...]
+    """East."""
+    y: tuple[Metre, ...]
+    """North."""
+    heading: tuple[Radian, ...]
+    """Where the nose points."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LevelChangeCard:
     """A climb or a descent that the pursuer makes on its way."""
 

@@ -107,6 +107,10 @@ class Heights:
         knots = _knots(self)
         return next(knot for knot in reversed(knots) if knot.at <= max(t, 0.0)).until(t)
 
+    def bound_knots(self) -> tuple[Second, ...]:
+        """Between these times `bounds` are linear; at them they may jump [s]."""
+        return () if self.altitude is None else tuple(knot.at for knot in _knots(self))
+
 
 UNKNOWN = Heights(altitude=None)
 """Of an aircraft whose level is not known."""

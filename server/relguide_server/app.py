@@ -17,6 +17,12 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.outcome import Planner
+from relguide_server.atc import routes as clearance_routes
+from relguide_server.atc import traffic_routes
+from relguide_server.atc.desk import Desk
+from relguide_server.atc.reports import Reports
+from relguide_server.atc.skies import Skies
+from relguide_server.atc.watching import Watching
 from relguide_server.flights import record_routes, routes, scene_relay, stream_docs
 from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
 from relguide_server.flights.live_fleet import LiveFleet
@@ -26,6 +32,7 @@ from relguide_server.http.bodies import Bodies, json_answer
 from relguide_server.http.body_limit import BodyLimit
 from relguide_server.http.errors import install_handlers
 from relguide_server.http.head_requests import HeadAsGet
+from relguide_server.http.idempotency import Idempotency
 from relguide_server.http.metrics import Metrics
 from relguide_server.http.openapi import describe, name_of, response, schema_of
 from relguide_server.http.pages import Page
@@ -78,6 +85,7 @@ def create_app(
     catalogue: FlightCatalogue | None = None,
     preparation: Preparation | None = None,
     records: RecordsService | None = None,
+    exposed: bool = False,
 ) -> FastAPI:
     """The whole service.
 
@@ -87,6 +95,7 @@ def create_app(
         catalogue: what can be flown; the library's scenarios if left out.
         preparation: compiles ahead what is not compiled yet; if left out, nothing does.
         records: keeps flights, commands and plans; if left out, nothing does.
+        exposed: whether it listens to other machines.
     """
     settings = settings or settings_from()
     metrics = Metrics()
@@ -107,6 +116,9 @@ def create_app(
     fleet = LiveFleet(settings, metrics)
     metrics.watch(partial(_measure, fleet, workers))
     metrics.watch(records.measure)
+    reports = Reports()
+    desk = Desk(Skies(fleet, reports), settings, records, metrics)
+    watching = Watching(desk, reports)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -114,9 +126,13 @@ def create_app(
         records.start()
         drift.start()
         fleet.start()
+        watching.start()
         workers.start(partial(preparation.can_plan_by, name), partial(load, name))
         yield
+        await app.state.idempotency.stop()
         await workers.stop()
+        await watching.stop()
+        await desk.stop()
         await fleet.stop()
         await asyncio.to_thread(records.stop)
         await asyncio.to_thread(drift.stop)
@@ -134,11 +150,13 @@ def create_app(
         telemetry=NO_TELEMETRY,
     )
     app.state.workers, app.state.bodies = workers, Bodies()
+    app.state.idempotency = Idempotency()
     app.state.plan_service = PlanService(
         name, planner, quick=quick, preparation=preparation, workers=workers, metrics=metrics
     )
     app.state.settings, app.state.catalogue = settings, catalogue
     app.state.records, app.state.recordings = records, KeptRecordings()
+    app.state.reports, app.state.desk = reports, desk
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     app.router.routes[:0] = plans.router.routes  # most requests are for these
     for part in (
@@ -149,6 +167,8 @@ def create_app(
         flown_scenarios.router,
         record_routes.router,
         scene_relay.router,
+        clearance_routes.router,
+        traffic_routes.router,
         stream_docs.router,
         problem_docs.router,
         pages.router,
@@ -160,7 +180,13 @@ def create_app(
     app.add_middleware(Page)
     app.add_middleware(BodyLimit, max_body=settings.max_body)
     hosts = [name.strip() for name in settings.hosts.split(",") if name.strip()]
-    app.add_middleware(Access, hosts=hosts, tokens=read_tokens(settings.tokens))
+    app.add_middleware(
+        Access,
+        hosts=hosts,
+        tokens=read_tokens(settings.tokens),
+        open_control=settings.open_control == "on",
+        exposed=exposed,
+    )
     app.add_middleware(RequestLog, metrics=metrics)
     app.add_middleware(HeadAsGet)
     app.add_middleware(Admission)
@@ -197,15 +223,16 @@ async def show_readiness(
     Records do not count: a service whose database is gone plans and flies as ever.
     """
     workers: WorkerPool = request.app.state.workers
+    answers = await workers.answers()
     report = preparation.report() | {
         "planning": {
-            "answers": workers.ready,
+            "answers": answers,
             "processes": len(workers.processes),
             "waiting": workers.waiting,
         },
         "records": records.report().model_dump(),
     }
-    if preparation.ready and workers.ready:
+    if preparation.ready and answers:
         return json_answer(report)
     report["status"] = "preparing"
     again = {"Retry-After": str(preparation.seconds_left())}
@@ -230,11 +257,12 @@ async def show_metrics(request: Request) -> Response:
     return Response(page, media_type=media_type)
 
 
-def app_of(settings: ServiceSettings | None = None) -> FastAPI:
+def app_of(settings: ServiceSettings | None = None, *, exposed: bool = False) -> FastAPI:
     """The service as an operator starts it: prepared ahead, recording, its log written.
 
     Args:
         settings: from the environment if left out.
+        exposed: whether it listens to other machines.
     """
     settings = settings or settings_from()
     logs.configure(settings.log_format, settings.log_level)
@@ -249,6 +277,7 @@ def app_of(settings: ServiceSettings | None = None) -> FastAPI:
             keep_days=settings.keep_days,
             keep_mb=settings.keep_mb,
         ),
+        exposed=exposed,
     )
     app.state.metrics.serve_process()
     return app

@@ -78,7 +78,7 @@ class NowPreparing(BaseModel):
 class PlanningReport(BaseModel):
     """Whether what takes longer than a millisecond is answered."""
 
-    answers: bool = Field(description="Whether a worker is there.")
+    answers: bool = Field(description="Whether a worker answers: one is asked.")
     processes: int = Field(description="How many run.")
     waiting: dict[str, int] = Field(description="Jobs that wait for one, by kind.")
 

@@ -10,10 +10,13 @@ from typing import Any
 import uvicorn
 from fastapi import FastAPI
 
+from relguide_server.doors.connection_shares import ConnectionShares
+from relguide_server.doors.connections import Connection
+from relguide_server.doors.listener import Listener, bound
+from relguide_server.doors.sockets import Socket
 from relguide_server.flights.live_fleet import LiveFleet
-from relguide_server.http.connections import Connection
+from relguide_server.http.errors import log
 from relguide_server.http.proxy import believed
-from relguide_server.http.sockets import Socket
 from relguide_server.jobs.worker_pool import WorkerPool
 from relguide_server.settings import ServiceSettings
 
@@ -33,18 +36,48 @@ of Python's ten: such a one holds up the event loop for 15 to 30 ms."""
 class Server(uvicorn.Server):
     """Uvicorn's server, which tells streams and requests why they end."""
 
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Listen, so that no client keeps others out."""
+        connection: Any = self.config.http_protocol_class  # as `uvicorn_options` has it
+        shares: ConnectionShares = connection.keywords["shares"]
+        self._app().state.metrics.watch(shares.measure)
+        if sys.platform == "win32":  # whose loops watch no sockets
+            await super().startup(sockets)
+            return
+        try:
+            ports = bound(self.config.host, self.config.port)
+        except OSError as error:
+            log.error("%s, port %d: %s", self.config.host, self.config.port, error.strerror)
+            sys.exit(1)
+        await self.lifespan.startup()
+        if self.lifespan.should_exit:
+            sys.exit(1)
+        begin = partial(
+            connection,
+            config=self.config,
+            server_state=self.server_state,
+            app_state=self.lifespan.state,
+        )
+        self.servers = [Listener(ports, shares, begin)]  # type: ignore[list-item]
+        self.started = True
+
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Stop: streams, jobs and bodies to come end with a sentence; requests have a second."""
-        app = self.config.loaded_app
-        while not isinstance(app, FastAPI):
-            app = app.app
+        app = self._app()
         fleet: LiveFleet = app.state.fleet
         workers: WorkerPool = app.state.workers
         fleet.dismiss()
+        app.state.desk.journal.dismiss()
         app.state.bodies.stop()
         await workers.stop()
         await asyncio.sleep(TO_SAY_GOODBYE)
         await super().shutdown(sockets)
+
+    def _app(self) -> FastAPI:
+        app = self.config.loaded_app
+        while not isinstance(app, FastAPI):
+            app = app.app
+        return app
 
 
 def serve(app: FastAPI, *, host: str, port: int) -> None:
@@ -70,12 +103,13 @@ def uvicorn_options(*, host: str, port: int, most: int, proxies: str) -> dict[st
     uvloop is taken where it is installed ("auto"). Compressing each of 20 messages a second
     would cost more than the stream itself, so per-message deflate is off.
     """
+    shares = ConnectionShares(most, believed(proxies))
     return {
         "host": host,
         "port": port,
         "loop": "auto",
-        "http": partial(Connection, most=most, proxies=believed(proxies)),
-        "ws": Socket,
+        "http": partial(Connection, shares=shares),
+        "ws": partial(Socket, shares=shares),
         "ws_per_message_deflate": False,
         "ws_max_size": 1024 * 1024,  # a browser sends us camera positions, nothing larger
         "timeout_graceful_shutdown": TO_FINISH,

@@ -67,8 +67,11 @@ class ServiceSettings(BaseSettings):
     """Names this server is reached by, with commas between; it always answers to localhost and to
     addresses. `*`: any name, which lets pages of other sites reach it."""
     tokens: Annotated[str, Unit("ROLE:TOKEN,…")] = ""
-    """Who may do what, e.g. `view:TOKEN,fly:TOKEN,control:TOKEN`; if empty, everybody may do all.
-    """
+    """Who may do what, e.g. `view:TOKEN,fly:TOKEN,atc:TOKEN,control:TOKEN`; if empty, everybody on
+    this machine may do all, and others command and end their own flights."""
+    open_control: Annotated[Literal["on", "off"], Unit("on|off")] = "off"
+    """Without tokens, whether others too may command all flights, say what traffic and airspace
+    there is, and remove records."""
     root_path: Annotated[str, Unit("PATH")] = ""
     """The path below which a proxy serves it, e.g. `/relguide`, whether or not the proxy strips it.
     A trusted proxy may say it as well (`X-Forwarded-Prefix`)."""
@@ -98,6 +101,10 @@ class ServiceSettings(BaseSettings):
     """How the log is written: as text, or as JSON lines."""
     log_level: Annotated[Literal["debug", "info", "warning"], Unit("debug|info|warning")] = "info"
     """What the log holds at least; `debug` adds a line for every request."""
+
+    atc_auto_answer: Annotated[Literal["auto", "on", "off"], Unit("auto|on|off")] = "auto"
+    """Whether the automation answers requests for clearances in the controller's place; `auto`:
+    while no token is a controller's and no controllers' stream is open."""
 
     records: Annotated[Literal["on", "off"], Unit("on|off")] = "on"
     """Whether flights, commands and plans asked for are kept."""

@@ -32,7 +32,8 @@ class TestClient(starlette.testclient.TestClient):
     """A client on this machine: the service does not answer for other names."""
 
     def __init__(self, app: ASGIApp, **options: Any) -> None:
-        super().__init__(app, base_url="http://localhost", **options)
+        given = {"base_url": "http://localhost", "client": ("127.0.0.1", 50000)} | options
+        super().__init__(app, **given)
 
     def websocket_connect(self, url: str, *arguments: Any, **options: Any) -> WebSocketTestSession:
         return super().websocket_connect(f"ws://localhost{url}", *arguments, **options)
@@ -59,11 +60,14 @@ def ideal_catalogue(
 
 
 def ideal_app(
-    source: Callable[..., Iterator[Document]] = ideal_flight, **settings: float | str
+    source: Callable[..., Iterator[Document]] = ideal_flight,
+    *,
+    exposed: bool = False,
+    **settings: float | str,
 ) -> FastAPI:
     """The service with ideal flights."""
     limits = ServiceSettings(**{"workers": 0, **settings})  # type: ignore[arg-type]
-    return create_app(limits, catalogue=ideal_catalogue(source))
+    return create_app(limits, catalogue=ideal_catalogue(source), exposed=exposed)
 
 
 @contextmanager

@@ -92,6 +92,8 @@ export function createActions(
   let engagement: keyof typeof RATE = "off";
   /** When this page last gave a command [ms]. */
   let commanded = Number.NEGATIVE_INFINITY;
+  /** How far this page last ordered guidance to be engaged, until it is. */
+  let ordered: Engagement | null = null;
   /** Whether a flight that went on for an acceptance stands again once that is taken, and waits until it is engaged. */
   let standsAgain = false;
   let waits = false;
@@ -244,6 +246,13 @@ export function createActions(
     if (last === null || last.engagement !== last.previous) return;
     if (performance.now() - commanded < LATEST) untracked(() => say("refused", last.message));
   });
+  // What the flight has obeyed is told to the controller.
+  effect(() => {
+    const engagement = session.flight.moment.value.engagement?.engagement;
+    if (engagement === undefined || engagement !== ordered) return;
+    ordered = null;
+    untracked(() => byCrew((each) => each.tellControl(engagement)));
+  });
   // What stands takes orders when it goes on: once a path is accepted it stands again, to be read.
   effect(() => {
     if (session.flight.moment.value.engagement?.engagement !== "armed" || !standsAgain) return;
@@ -278,6 +287,7 @@ export function createActions(
   async function begin(wanted: FlightRequest, flies = () => {}): Promise<void> {
     isGrounded = false;
     waits = standsAgain = false;
+    ordered = null;
     if (again !== null) clearTimeout(again);
     say("sending", "Starting the flight…");
     const answer = await createFlight(wanted);
@@ -420,6 +430,7 @@ export function createActions(
       }
       const { doing, done } = ENGAGING[engagement];
       session.flight.isSent.value = engagement === "armed";
+      ordered = engagement;
       void command({ command: "set_engagement", engagement }, doing, done).then(() => {
         // what it refuses at once brings no document
         if (session.feedback.value.kind === "refused") session.flight.isSent.value = false;

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-f9fc6a32e7c0";
+export const PROTOCOL = "relguide-52c606c08217";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -46,6 +46,17 @@ export type LeaderChange =
   | "intent_received"
   | "intent_withdrawn"
   | "intent_broken";
+
+/** What became of a manoeuvre that was sent to air traffic control. */
+export type ClearanceStatus =
+  | "sent"
+  | "standby"
+  | "validated"
+  | "unable"
+  | "wilco"
+  | "flying"
+  | "deviating"
+  | "over";
 
 /** What a link keeps once joined: a distance, or a time. */
 export type Spacing = "distance" | "time";
@@ -113,6 +124,7 @@ export type Document =
   | CommandGiven
   | ControlChanged
   | AssignmentChanged
+  | ClearanceNews
   | PlanUnavailable
   | PlanRefused
   | ModeChanged
@@ -214,6 +226,12 @@ export type DeviationKind = "across" | "along" | "spacing" | "level" | "turn";
 
 /** How far. */
 export type DeviationLevel = "none" | "caution" | "alert";
+
+/** What is kept behind the traffic. */
+export type SpacingGoal = DistanceGoal | TimeGoal;
+
+/** A request for a clearance. */
+export type ClearanceRequest = FlightClearanceRequest | IntentClearanceRequest;
 
 /** What the controllers' stream brings. */
 export type AtcDocument =
@@ -427,6 +445,14 @@ export interface AssignmentChanged {
   message: string;
 }
 
+/** A frame of the controllers' stream: what happened since the last one, in order. */
+export interface AtcFrame {
+  kind: "atc";
+  number: number;
+  snapshot: boolean;
+  documents: AtcDocument[];
+}
+
 /** The crew takes control from the autopilot, or gives it back. */
 export interface AutopilotOrder {
   t_s?: number;
@@ -514,6 +540,13 @@ export interface CellCard {
   lon_deg?: number[];
 }
 
+/** What the controller says to a request, or does with a clearance. */
+export interface ClearanceAnswer {
+  answer: "accepted" | "unable" | "standby" | "cancelled" | "terminated";
+  reason?: ReasonCode | "";
+  message?: string;
+}
+
 /** A clearance: what is asked for, what automation finds, what was answered. */
 export interface ClearanceCard {
   id: string;
@@ -543,6 +576,10 @@ export interface ClearanceCard {
   joins_s: number;
   route: TrackCard;
   leader_route: TrackCard;
+  /** That its turns need; left out where it is not known. */
+  bank_deg?: number;
+  /** That the aircraft has; left out where it is not known. */
+  max_bank_deg?: number;
   /** The last one; none before the first. */
   validation: ValidationCard[];
   /** Those that stand now. */
@@ -558,6 +595,48 @@ export interface ClearanceChanged {
   kind: "clearance_changed";
   t_s: number;
   clearance: ClearanceCard;
+}
+
+/** Clearances. */
+export interface ClearanceList {
+  clearances: ClearanceCard[];
+}
+
+/**
+ * What air traffic control says of the manoeuvre that a crew has sent it.
+ *
+ * It comes from outside the flight, which flies the same without it.
+ */
+export interface ClearanceNews {
+  kind: "clearance_news";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  clearance_id: string;
+  clearance: ClearanceStatus;
+  /** caution: something is to be seen to; warning: it is no longer cleared, or far off its path. */
+  level: AlertState;
+  /** Why, in a word: `separation`, `airspace`, `across` …; left out where nothing is wrong. */
+  reason?: string;
+  /** In a sentence. */
+  message: string;
+  /** Whether the automation answered in the controller's place. */
+  automated: boolean;
+}
+
+/** What the crew says to its clearance. */
+export interface ClearanceReply {
+  reply: "WILCO" | "UNABLE" | "CANCEL";
+  message?: string;
+}
+
+/** What a request would be found to be; nothing is kept of it. */
+export interface ClearanceTrial {
+  text: string;
+  joins_s: number;
+  route: TrackCard;
+  leader_route: TrackCard;
+  validation: ValidationCard;
 }
 
 /** How near a pursuer came to one other aircraft, or to the edge of a cell. */
@@ -717,6 +796,12 @@ export interface DiscCell {
   growth_mps?: number;
 }
 
+/** A distance to keep behind the traffic. */
+export interface DistanceGoal {
+  type: "distance";
+  value_m: number;
+}
+
 /** A word that reaches the place of the slot before it opens. */
 export interface EarlyAlternativeCard {
   /** Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min. */
@@ -825,6 +910,13 @@ export interface Finding {
   message: string;
   /** Of the aircraft or airspaces that it is about. */
   idents?: string[];
+}
+
+/** A flight of this service asks for what its guidance flies or proposes. */
+export interface FlightClearanceRequest {
+  flight_id: string;
+  aircraft?: string;
+  clearance_type?: "capture_then_maintain";
 }
 
 /** How the flight went: the last document. */
@@ -981,6 +1073,17 @@ export interface ForecastChanged {
   lon_deg?: number[];
 }
 
+/** Who asks, now, placed on the earth (WGS84). */
+export interface GeodeticAircraft {
+  ident: string;
+  lat_deg: number;
+  lon_deg: number;
+  heading_deg: number;
+  tas_mps: number;
+  max_bank_deg: number;
+  altitude_m?: number | null;
+}
+
 /** A corner of a cell, placed on the earth (WGS84). */
 export interface GeodeticCorner {
   lat_deg: number;
@@ -1097,6 +1200,18 @@ export interface HeadingOrder {
 export interface HeadingReference {
   kind: "hold_heading";
   heading_deg: number;
+}
+
+/** An aircraft asks for what it declares that it will fly. */
+export interface IntentClearanceRequest {
+  aircraft: LocalAircraft | GeodeticAircraft;
+  intent: IntentPiece[];
+  clearance_type?: "capture_then_maintain";
+  traffic_id: string;
+  assigned_spacing_goal: SpacingGoal;
+  min_separation_m: number;
+  wind?: WindBody;
+  sky?: string;
 }
 
 /** The leader's intent is received (`True`) or withdrawn (`False`). */
@@ -1338,6 +1453,17 @@ export interface LinkResult {
   by_hand?: FlownByHand[];
 }
 
+/** Who asks, now, in the sky of a flight. */
+export interface LocalAircraft {
+  ident: string;
+  x_m: number;
+  y_m: number;
+  heading_deg: number;
+  tas_mps: number;
+  max_bank_deg: number;
+  altitude_m?: number | null;
+}
+
 /** A round cell, at t = 0. */
 export interface LocalDisc {
   x_m: number;
@@ -1542,6 +1668,26 @@ export interface PairCard {
   until_s: number;
 }
 
+/**
+ * A path as an aircraft would really fly it, rolls and braking included.
+ *
+ * Columns of equal length; points close enough to draw straight lines between.
+ */
+export interface PathAhead {
+  /** Flight times, ascending. */
+  times_s: number[];
+  /** East. */
+  x_m: number[];
+  /** North. */
+  y_m: number[];
+  /** Where the nose points. */
+  heading_deg: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number[];
+}
+
 /** A place and a heading along a path, over the ground. */
 export interface PathPoint {
   /** From the beginning of the path. */
@@ -1664,6 +1810,8 @@ export interface PlanProposed {
   flown_least_m: number;
   /** Other paths to the slot that could be flown, fastest first: at most three. */
   others: OtherPathCard[];
+  /** What would be flown, as forecast; none in recordings of before. */
+  ahead?: PathAhead[];
 }
 
 /**
@@ -2223,6 +2371,12 @@ export interface Tick {
   documents: Document[];
 }
 
+/** A time to keep behind the traffic. */
+export interface TimeGoal {
+  type: "time";
+  value_s: number;
+}
+
 /** A track in columns of equal length: straight lines between knots. */
 export interface TrackCard {
   t_s: number[];
@@ -2232,6 +2386,12 @@ export interface TrackCard {
   y_m: number[];
   /** Pressure altitude in the middle of what is possible; left out where it is not known. */
   altitude_m?: number[];
+  /** It is at least this high … */
+  low_m?: number[];
+  /** … and at most this; both are left out with the altitude. */
+  high_m?: number[];
+  /** What is flown strays from these lines by no more than this, at its time. */
+  error_m?: number;
   /** WGS84; there if the situation came with latitudes. */
   lat_deg?: number[];
   /** WGS84; there if the situation came with latitudes. */

@@ -23,7 +23,7 @@ export const ELEMENTS: readonly Element[] = [
   element(
     "atc",
     "Order",
-    "what became of your last one: SENT until the service answers, ACCEPTED, or REJECTED",
+    "what became of your last one: SENT, ACCEPTED or REJECTED; then the controller's answer: STANDBY, VALIDATED (AUTO: by the automation), UNABLE with the reason",
   ),
   element("message", "Message", "the most urgent one; an arrow if there are more"),
   element(

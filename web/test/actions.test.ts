@@ -123,7 +123,9 @@ test("what stands at its beginning goes on for an acceptance, and stands again o
   const { asked, session, actions } = flying(new Response(null, { status: 204 }));
   asked.mockImplementation(async () => new Response(null, { status: 204 }));
   const commands = () =>
-    asked.mock.calls.map(([, init]) => JSON.parse(init?.body as string).command);
+    asked.mock.calls
+      .filter(([url]) => String(url).endsWith("/commands"))
+      .map(([, init]) => JSON.parse(init?.body as string).command);
   amend(session.flight, { t: 0 });
   session.flight.clock.value = { rate: 1, paused: true, ended: false };
   actions.engage("armed");
@@ -133,6 +135,10 @@ test("what stands at its beginning goes on for an acceptance, and stands again o
     engagement: { ...taken, engagement: "armed", previous: "designated" },
   });
   await vi.waitFor(() => expect(commands()).toEqual(["set_engagement", "play", "pause"]));
+  // what is accepted is sent to the controller
+  await vi.waitFor(() =>
+    expect(asked.mock.calls.map(([url]) => url)).toContain("api/v1/clearances"),
+  );
   // the pause may not have been heard of yet
   session.flight.clock.value = { rate: 1, paused: false, ended: false };
   actions.engage("engaged");

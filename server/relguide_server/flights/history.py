@@ -3,11 +3,12 @@
 from collections import deque
 from dataclasses import dataclass, field
 from operator import itemgetter
-from typing import assert_never
+from typing import TypeVar, assert_never
 
 from relguide.flying.documents import (
     Alert,
     AssignmentChanged,
+    ClearanceNews,
     CommandGiven,
     ControlChanged,
     Document,
@@ -37,6 +38,7 @@ HAPPENINGS = 200
 """Most changes of leaders and losses of separation kept."""
 
 Happening = LeaderChanged | SeparationLost
+D = TypeVar("D", AssignmentChanged, ForecastChanged, PlanChanged, PlanProposed)
 
 
 @dataclass(slots=True)
@@ -71,6 +73,7 @@ class History:
                 | EngagementChanged()
                 | ControlChanged()
                 | AssignmentChanged()
+                | ClearanceNews()
                 | PlanRefused()
                 | ModeChanged()
                 | PromiseChanged()
@@ -95,6 +98,11 @@ class History:
     def routes(self) -> list[LeaderRoute]:
         """What each pursuer expects of its leader now."""
         return [d for _, d in self._states.values() if isinstance(d, LeaderRoute)]
+
+    def find(self, kind: type[D], ident: str) -> D | None:
+        """The last document of a kind, of an aircraft; `None` if there is none that stands."""
+        found = (d for _, d in self._states.values() if isinstance(d, kind) and d.ident == ident)
+        return next(found, None)
 
     def documents(self) -> list[Document]:
         """The snapshot, in the order of the flight: what holds now, the trail, this instant."""

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from relguide.contract.places import UNANCHORED, Anchor
 from relguide.contract.upstream import Upstream
 from relguide.contract.wire import tick
-from relguide.flying.documents import CommandGiven, Document, Sample
+from relguide.flying.documents import CommandGiven, Document, FlightEnded, Sample
 from relguide.flying.orders import Command
 from relguide.planning.frames import LocalPlane
+from relguide.units import Second
 from relguide_server.flights.control import Control, Standing
 from relguide_server.flights.hands import Hands
 from relguide_server.flights.history import History
@@ -88,6 +89,8 @@ class LiveFlight:
         self._hands = Hands()
         self.control = Control(self._hands)
         self._inbox = Inbox()
+        self._saying = threading.Lock()
+        self._said: Second = 0.0
         self._shown_at = self.last_seen
         self._showing = False
         self._stage: SceneStage | None = None
@@ -142,6 +145,16 @@ class LiveFlight:
     def command(self, command: Command) -> None:
         """Pass a command to the flight, which polls for it at its next step."""
         self._commands.append(command)
+
+    def say(self, make: Callable[[Second], Document]) -> None:
+        """Add a document that the flight does not give by itself; not once it is over.
+
+        Args:
+            make: makes it, given its flight time [s].
+        """
+        with self._saying:
+            if not self._flown:
+                self._keep(make(self._said))
 
     async def wait_for_first_sample(self) -> bool:
         """Wait until it flies. False if it broke before its first sample."""
@@ -274,8 +287,9 @@ class LiveFlight:
             self._hands.note(document)
             if not self.pace.wait_until(document.t - self._hands.ahead):
                 return
-            self._inbox.put(document)
-            self._recording.add(document)
+            with self._saying:
+                self._keep(document)
+                self._flown = isinstance(document, FlightEnded)
             if isinstance(document, Sample):
                 if not self._flying.is_set():
                     self._note_flying()
@@ -283,6 +297,11 @@ class LiveFlight:
                     self._call(self._show_soon)
         self._flown = True
         self._recording.end("stopped")
+
+    def _keep(self, document: Document) -> None:
+        self._said = document.t
+        self._inbox.put(document)
+        self._recording.add(document)
 
     def _take_commands(self, t: float) -> Iterator[Command]:
         if self._hands.flown and not t.is_integer():

@@ -21,6 +21,7 @@ from relguide_server.flights.routes import status_of
 from relguide_server.http.access import owner_of
 from relguide_server.http.bodies import json_answer, read_object
 from relguide_server.http.errors import Refusal, refusal_of
+from relguide_server.http.idempotency import IdempotentRoute
 from relguide_server.http.openapi import (
     BODY,
     header_references,
@@ -77,6 +78,7 @@ router = APIRouter(
     prefix="/api/v1/records",
     tags=["records"],
     dependencies=[KNOWN_PARAMETERS_ONLY, Depends(_expect_open)],
+    route_class=IdempotentRoute,
 )
 
 RecordedId = Annotated[

@@ -64,6 +64,7 @@ from relguide_server.http.bodies import (
     read_object,
 )
 from relguide_server.http.errors import Refusal, refusal_of
+from relguide_server.http.idempotency import IdempotentRoute
 from relguide_server.http.openapi import BODY, problem_responses, request_body, response, schema_of
 from relguide_server.http.proxy import root_of
 from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
@@ -87,7 +88,12 @@ FlightId = Annotated[
 ]
 ENDED: dict[int | str, dict[str, Any]] = {204: {"description": "It is over."}}
 
-router = APIRouter(prefix="/api/v1", tags=["flights"], dependencies=[KNOWN_PARAMETERS_ONLY])
+router = APIRouter(
+    prefix="/api/v1",
+    tags=["flights"],
+    dependencies=[KNOWN_PARAMETERS_ONLY],
+    route_class=IdempotentRoute,
+)
 
 
 @router.get(

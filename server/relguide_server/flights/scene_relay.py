@@ -26,6 +26,7 @@ from relguide_server.flights.frames import FrameAllowance
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.http.proxy import root_of
+from relguide_server.scene.guarded_port import HEADER, SECRET
 
 CAMERA = {
     "wxyz": 4, "position": 3, "fov": 0, "near": 0, "far": 0, "image_height": 0, "image_width": 0,
@@ -114,6 +115,7 @@ async def _relay(websocket: WebSocket, flight: LiveFlight) -> None:
     try:
         scene = await connect(
             f"ws://{address}",
+            additional_headers={HEADER: SECRET},
             subprotocols=offered or None,
             compression=None,
             max_size=None,

@@ -7,7 +7,8 @@ from typing import Any
 
 from fastapi import APIRouter, Request
 from pydantic import BaseModel
-from pydantic.json_schema import models_json_schema
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue, models_json_schema
+from pydantic_core.core_schema import TaggedUnionSchema
 from starlette.responses import HTMLResponse, Response
 
 from relguide.contract.messages import Tick
@@ -50,6 +51,19 @@ HEARD: dict[str, tuple[type[BaseModel], str]] = {
 router = APIRouter(include_in_schema=False)
 
 
+class AsyncApiSchema(GenerateJsonSchema):
+    """Schemas without `discriminator`, which AsyncAPI takes for the name of a parent's property.
+
+    Each shape of a union has its kind as a constant, so the union says as much without it.
+    """
+
+    def tagged_union_schema(self, schema: TaggedUnionSchema) -> JsonSchemaValue:
+        """Any of some shapes."""
+        made = super().tagged_union_schema(schema)
+        made.pop("discriminator", None)
+        return made
+
+
 @router.get("/asyncapi.json")
 async def asyncapi(request: Request) -> Response:
     """The document, for programs."""
@@ -71,10 +85,11 @@ def asyncapi_document() -> dict[str, Any]:
     _, schemas = models_json_schema(
         [(shape, "validation") for shape, _ in (SENT | HEARD).values()],
         ref_template="#/components/schemas/{model}",
+        schema_generator=AsyncApiSchema,
     )
     codes = "\n".join(f"- {code}: {meaning}" for code, meaning in CLOSE_CODES.items())
     return {
-        "asyncapi": "3.0.0",
+        "asyncapi": "3.1.0",
         "info": {"title": "relguide", "version": VERSION, "description": DESCRIPTION},
         "defaultContentType": "application/json",
         "channels": {

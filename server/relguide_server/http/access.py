@@ -4,9 +4,10 @@
   is refused wherever something is changed or streamed. By rebinding a name of its own to this
   machine it could hide that as well, so only names known here are answered; an address is no name.
 - Programs send no `Origin`. With tokens, they and browsers must show one (`Authorization: Bearer`,
-  or the cookie that `/?token=…` sets).
+  or the cookie that `/?token=…` sets). Without tokens, who asks from another machine is a guest.
 """
 
+import re
 import secrets
 from collections.abc import Mapping, Sequence
 from hashlib import sha256
@@ -23,10 +24,22 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from relguide_server.http.errors import Refusal, problem
 from relguide_server.http.proxy import header_of, path_of, root_of
 
-Role = Literal["view", "fly", "control"]
-"""`view`: read, plan and watch; `fly`: start flights, and command and end one's own; `control`: all
-flights."""
+Role = Literal["view", "fly", "atc", "control"]
+"""What a token is for."""
+Power = Literal["read", "fly", "answer", "picture", "command_all"]
+"""`read`: read, plan and watch; `fly`: start flights, and command and end one's own; `answer`:
+answer clearances; `picture`: say what traffic and airspace there is; `command_all`: command and end
+every flight, and remove records."""
 ROLES: tuple[Role, ...] = get_args(Role)
+MAY: dict[str, tuple[Power, ...]] = {
+    "view": ("read",),
+    "fly": ("read", "fly"),
+    "atc": ("read", "answer", "picture"),
+    "control": get_args(Power),
+    "guest": ("read", "fly", "answer"),
+}
+"""What each role may. A guest has no token where there are none, and asks, or can, from another
+machine: it answers for its own flights alone (`may_answer`)."""
 SHORTEST = 16
 """Characters of a token, at least."""
 COOKIE = "relguide_token"
@@ -35,8 +48,15 @@ OPEN = ("/healthz", "/readyz")
 """Answered without a token."""
 CALCULATIONS = ("/api/v1/plans", "/api/v1/areas", "/api/v1/simulations")
 """What changes nothing, though it is posted."""
-RECORDS = "/api/v1/records"
-"""Nobody removes from there but who may command all flights."""
+CLEARANCES = "/api/v1/clearances"
+NEEDED: tuple[tuple[str, str, Power], ...] = (
+    ("POST", rf"({'|'.join(CALCULATIONS)})(/.*)?", "read"),
+    ("POST", rf"{CLEARANCES}/[^/]+/answers", "answer"),
+    ("DELETE", r"/api/v1/records/.*", "command_all"),
+    (".+", r"/api/v1/(traffic|airspaces|feeds)(/.*)?", "picture"),
+    (".+", ".*", "fly"),
+)
+"""By method and path, what a request needs that is not safe: the first that fits."""
 UNKNOWN_HOST = (
     "This server does not answer for the name {name!r}. If it is its name, start it with "
     "RELGUIDE_HOSTS={name}."
@@ -45,7 +65,12 @@ FOREIGN = "A page of {origin} may not do this: only pages of this server may."
 NO_TOKEN = "This needs a token: send Authorization: Bearer …, or open /?token=… in a browser."
 UNKNOWN_TOKEN = "This token is not one of the service's: ask whoever runs it for one."
 NOT_YOURS = "This flight is another's: only who started it commands it."
-TOO_LITTLE = "This token may {role}; this needs one that may {needed}."
+NOT_YOUR_GUEST = f"{NOT_YOURS} RELGUIDE_OPEN_CONTROL=on lets everybody."
+TOO_LITTLE = "This needs a token of {allowed}, not one of {role}."
+GUEST = (
+    "This service is open to other machines and has no tokens, so nobody may do this: "
+    "RELGUIDE_TOKENS says who may, RELGUIDE_OPEN_CONTROL=on lets everybody."
+)
 
 
 class HostNames:
@@ -73,15 +98,33 @@ class HostNames:
 
 
 class Access:
-    """ASGI middleware: refuses unknown hosts, foreign pages and, if there are tokens, who has none.
+    """ASGI middleware: refuses unknown hosts, foreign pages, and who may not do what it asks for.
 
     Who asks is noted in the scope, for `owner_of`.
     """
 
-    def __init__(self, app: ASGIApp, *, hosts: Sequence[str], tokens: Mapping[str, Role]) -> None:
+    def __init__(
+        self,
+        app: ASGIApp,
+        *,
+        hosts: Sequence[str],
+        tokens: Mapping[str, Role],
+        open_control: bool,
+        exposed: bool,
+    ) -> None:
+        """Take the settings.
+
+        Args:
+            app: what is asked by who may.
+            hosts: names that this server answers for.
+            tokens: each with its role; if there are none, nobody needs one.
+            open_control: whether everybody may do everything then, from other machines as well.
+            exposed: whether the service listens to other machines.
+        """
         self.app = app
         self.names = HostNames(hosts)
         self.tokens = tokens
+        self.open_control, self.exposed = open_control, exposed
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one connection."""
@@ -109,9 +152,15 @@ class Access:
         changes = scope["type"] == "websocket" or scope["method"] not in SAFE
         if changes and origin is not None and not self._is_own_page(origin, host):
             return _refuse(scope, 403, FOREIGN.format(origin=origin[:100]), kind="foreign-page")
-        if not self.tokens or path_of(scope) in OPEN:
+        if path_of(scope) in OPEN:
             return None
-        return self._judge_token(scope, Headers(scope=scope))
+        if self.tokens:
+            return self._judge_token(scope, Headers(scope=scope))
+        address = (scope.get("client") or ("127.0.0.1",))[0]  # none: a socket of this machine
+        if self.open_control or not (self.exposed or not is_loopback(address)):
+            return None
+        _note(scope, "guest", f"address {address}")
+        return None if _needed(scope) in MAY["guest"] else _refuse(scope, 403, GUEST)
 
     def _is_own_page(self, origin: str, host: str) -> bool:
         try:
@@ -132,10 +181,11 @@ class Access:
             why = UNKNOWN_TOKEN if token else NO_TOKEN
             return _refuse(scope, 401, why, headers={"WWW-Authenticate": "Bearer"})
         needed = _needed(scope)
-        if ROLES.index(role) < ROLES.index(needed):
-            return _refuse(scope, 403, TOO_LITTLE.format(role=role, needed=needed))
-        scope.setdefault("state", {})
-        scope["state"]["owner"] = "" if role == "control" else sha256(token.encode()).hexdigest()
+        if needed not in MAY[role]:
+            allowed = " or ".join(one for one in ROLES if needed in MAY[one])
+            return _refuse(scope, 403, TOO_LITTLE.format(role=role, allowed=allowed))
+        owner = "" if "command_all" in MAY[role] else sha256(token.encode()).hexdigest()
+        _note(scope, role, owner)
         return None
 
     def _role(self, token: str) -> Role | None:
@@ -157,6 +207,17 @@ def _refuse(
     return problem(scope["path"], status, detail, kind=kind, root=root_of(scope), headers=headers)
 
 
+def _note(scope: Scope, role: str, owner: str) -> None:
+    scope.setdefault("state", {})
+    scope["state"]["role"], scope["state"]["owner"] = role, owner
+
+
+def role_of(connection: HTTPConnection) -> str:
+    """The role of who asks, of `MAY`."""
+    role: str = getattr(connection.state, "role", "control")
+    return role
+
+
 def owner_of(connection: HTTPConnection) -> str:
     """Who asks, as flights note their owners; empty for who may command all of them."""
     owner: str = getattr(connection.state, "owner", "")
@@ -168,6 +229,12 @@ def may_command(connection: HTTPConnection, owner: str) -> bool:
     return owner_of(connection) in ("", owner)
 
 
+def may_answer(connection: HTTPConnection, owner: str) -> bool:
+    """Whether who asks may answer, as its controller, a flight of that owner."""
+    role = role_of(connection)
+    return "answer" in MAY[role] and (role != "guest" or owner_of(connection) == owner)
+
+
 def expect_owner(connection: HTTPConnection, owner: str) -> None:
     """Refuse who is not the owner of a flight.
 
@@ -175,7 +242,7 @@ def expect_owner(connection: HTTPConnection, owner: str) -> None:
         Refusal: 403.
     """
     if not may_command(connection, owner):
-        raise Refusal(403, NOT_YOURS)
+        raise Refusal(403, NOT_YOUR_GUEST if role_of(connection) == "guest" else NOT_YOURS)
 
 
 def read_tokens(text: str) -> dict[str, Role]:
@@ -190,20 +257,24 @@ def read_tokens(text: str) -> dict[str, Role]:
         role = next((role for role in ROLES if role == name), None)
         if role is None or len(token) < SHORTEST:
             raise ValueError(
-                "tokens must be a list such as view:TOKEN,fly:TOKEN,control:TOKEN, each TOKEN of "
-                f"{SHORTEST} characters or more."
+                f"tokens must be a list such as {','.join(f'{role}:TOKEN' for role in ROLES)}, "
+                f"each TOKEN of {SHORTEST} characters or more."
             )
         tokens[token] = role
     return tokens
 
 
-def _needed(scope: Scope) -> Role:
+def _needed(scope: Scope) -> Power:
     if scope["type"] == "websocket" or scope["method"] in SAFE:
-        return "view"
+        return "read"
     path = path_of(scope)
-    if path.startswith(RECORDS) and scope["method"] == "DELETE":
-        return "control"
-    return "view" if path.startswith(CALCULATIONS) else "fly"
+    if path == CLEARANCES and parse_qs(scope["query_string"]).get(b"dry_run") == [b"true"]:
+        return "read"  # a trial, of which nothing is kept
+    asked = f"{scope['method']} {path}"
+    return next(power for asking, power in _NEEDED if asking.fullmatch(asked))
+
+
+_NEEDED = [(re.compile(f"{m} {path}", re.DOTALL), power) for m, path, power in NEEDED]
 
 
 def _token(headers: Headers) -> str:
@@ -241,3 +312,11 @@ def _is_address(name: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def is_loopback(host: str) -> bool:
+    """Whether a host is this machine, which others cannot ask there: an address or `localhost`."""
+    if not _is_address(host):
+        return host == "localhost"
+    address = ip_address(host)
+    return (getattr(address, "ipv4_mapped", None) or address).is_loopback

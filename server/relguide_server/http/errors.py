@@ -25,7 +25,7 @@ from starlette.responses import Response
 from starlette.routing import compile_path
 
 from relguide.contract.refusal import ContractError, refuse_parameters
-from relguide_server.http.logs import request_id
+from relguide_server.http.logs import SeldomLine, request_id
 from relguide_server.http.problem_kinds import BY_STATUS, KINDS, PAGE
 
 log = logging.getLogger("relguide.server")
@@ -134,6 +134,7 @@ def problem(
 
 def install_handlers(app: FastAPI) -> None:
     """Make every error of the app a problem document."""
+    app.state.left = SeldomLine()
     app.add_exception_handler(HTTPException, _answer_refusal)
     app.add_exception_handler(RequestValidationError, _answer_invalid)
     app.add_exception_handler(ClientDisconnect, _note_left)
@@ -212,7 +213,8 @@ async def _note_left(request: Request, error: Exception) -> Response:
 
 def answer_left(request: Request) -> Response:
     """The answer to a client that left, which nobody reads; it is noted."""
-    log.info("A client left before %s %s was answered.", request.method, request.url.path)
+    left: SeldomLine = request.app.state.left
+    left.write("A client left before %s %s was answered.", request.method, request.url.path)
     return Response(status_code=400)
 
 

@@ -3,14 +3,19 @@
 import logging
 import sys
 import traceback
+from collections.abc import Callable
 from contextvars import ContextVar
 from datetime import UTC, datetime
+from math import inf
+from time import monotonic
 from typing import Any, Literal
 
 import orjson
 
 LOG = "relguide"
 """The logger that all of ours are below."""
+A_MINUTE = 60.0
+"""How often a line is written that many can cause [s]."""
 request_id: ContextVar[str] = ContextVar("request_id", default="")
 """Of the request that is being answered; empty outside of requests."""
 
@@ -42,6 +47,23 @@ class TextLines(logging.Formatter):
         """One line."""
         more = " ".join(f"{name}={value}" for name, value in _more(record).items())
         return super().formatMessage(record) + (f"  [{more}]" if more else "")
+
+
+class SeldomLine:
+    """A line that many can cause: it is written once a minute, with how many more there were."""
+
+    def __init__(self, now: Callable[[], float] = monotonic) -> None:
+        self._now, self._written_at, self._more = now, -inf, 0
+
+    def write(self, message: str, *arguments: object) -> None:
+        """Write it, or count it."""
+        now = self._now()
+        if now - self._written_at < A_MINUTE:
+            self._more += 1
+            return
+        more = f" ({self._more} more such since the last line)" if self._more else ""
+        logging.getLogger(f"{LOG}.server").info(message + more, *arguments)
+        self._written_at, self._more = now, 0
 
 
 def configure(form: Literal["text", "json"], level: Literal["debug", "info", "warning"]) -> None:

@@ -20,6 +20,8 @@ from pydantic.json_schema import models_json_schema
 from relguide_server.http.access import CALCULATIONS, OPEN, SAFE
 from relguide_server.http.bodies import JSON
 from relguide_server.http.errors import PROBLEM_JSON, Problem
+from relguide_server.http.idempotency import HEADER, LONGEST, SOUND, IdempotentRoute
+from relguide_server.http.kept_answers import REPLAYED
 from relguide_server.http.problem_kinds import KINDS, PAGE
 from relguide_server.http.query import refuse_unknown_parameters
 
@@ -30,6 +32,8 @@ TAGS = {
     "plans": "Plans with their proof, of one situation or of many.",
     "areas": "How long it takes to converge, from all places round a leader.",
     "flights": "Flights that are watched and commanded, and flights flown to their end at once.",
+    "clearances": "Manoeuvres that crews ask air traffic control for, and what becomes of them.",
+    "picture": "Traffic and closed airspaces that others report.",
     "records": "What was flown and planned: to search, replay, export and remove.",
     "service": "Whether the service is well.",
 }
@@ -48,8 +52,17 @@ HEADERS = {
     "WWW-Authenticate": "`Bearer`: how to show a token.",
     "ETag": "Names this very content: `If-None-Match` asks whether it is still the same.",
     "Content-Disposition": "A name for the file.",
+    REPLAYED: "`true` where the request had been answered before, and this is that answer.",
 }
 """All headers of answers that the API gives a meaning, and what they say."""
+KEY = {
+    "name": HEADER,
+    "in": "header",
+    "required": False,
+    "description": "Chosen anew for each request. One that is sent again with the same key is not "
+    "done again: for 24 hours it gets the first answer, if that was below 500.",
+    "schema": {"type": "string", "minLength": 1, "maxLength": LONGEST, "pattern": SOUND},
+}
 _EVERY = ("X-Request-ID", "Relguide-Version")
 _BY_STATUS = {"401": ("WWW-Authenticate",), "429": ("Retry-After",), "503": ("Retry-After",)}
 
@@ -80,7 +93,12 @@ def request_body(schema: dict[str, Any], example: object) -> dict[str, Any]:
 
 
 def response(
-    status: int, description: str, schema: dict[str, Any], *, headers: Iterable[str] = ()
+    status: int,
+    description: str,
+    schema: dict[str, Any],
+    *,
+    headers: Iterable[str] = (),
+    media: str = JSON,
 ) -> dict[int | str, dict[str, Any]]:
     """One entry of the `responses=` of a route.
 
@@ -89,8 +107,9 @@ def response(
         description: a sentence.
         schema: of its body.
         headers: of `HEADERS`, beyond those that all answers have.
+        media: type of its body.
     """
-    said = {"description": description, "content": {JSON: {"schema": schema}}}
+    said = {"description": description, "content": {media: {"schema": schema}}}
     return {status: {**said, "headers": header_references(headers)}}
 
 
@@ -194,6 +213,10 @@ def _complete(operation: dict[str, Any], method: str, route: Any) -> None:
         kinds.append("foreign-page")
         if not route.path.startswith(CALCULATIONS):
             kinds.append("not-allowed")
+    takes_key = method == "POST" and isinstance(route.original_route, IdempotentRoute)
+    if takes_key:
+        kinds.append("key-reused")
+        operation["parameters"] = [*operation.get("parameters", []), KEY]
     asked = [part.call for part in route.dependant.dependencies]
     if refuse_unknown_parameters in asked:
         kinds.append("unknown-parameter")
@@ -207,7 +230,8 @@ def _complete(operation: dict[str, Any], method: str, route: Any) -> None:
         known["description"] = ", or ".join(said["summary"] for said in examples.values())
     operation["responses"] = dict(sorted(answers.items()))
     for status, answer in operation["responses"].items():
-        names = (*_EVERY, *_BY_STATUS.get(status, ()))
+        replayed = (REPLAYED,) if takes_key and status < "5" else ()
+        names = (*_EVERY, *_BY_STATUS.get(status, ()), *replayed)
         answer["headers"] = {**answer.get("headers", {}), **header_references(names)}
         if (example := _examples().get(operation["operationId"])) and status.startswith("2"):
             answer["content"][JSON]["example"] = example

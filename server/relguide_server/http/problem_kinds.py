@@ -43,9 +43,18 @@ KINDS = {
     "unknown-parameter": Kind(
         422, "Unknown parameter", "The query has a parameter that the route does not have."
     ),
+    "key-reused": Kind(
+        422, "Key reused", "The `Idempotency-Key` came with another request: take a new one."
+    ),
     "stream": Kind(426, "A stream", "The address is one of WebSocket: `ws://…`, see /docs/stream."),
     "too-many-flights": Kind(
         429, "Too many flights", "End a flight, or try again after `Retry-After` seconds."
+    ),
+    "too-many-clearances": Kind(
+        429, "Too many clearances", "Cancel one, or wait until one is over."
+    ),
+    "too-many-sources": Kind(
+        429, "Too many sources", "Take back what one of them said: `DELETE`, with its name."
     ),
     "mistake": Kind(
         500, "A mistake of the server", "Its log has the details, by the answer's `X-Request-ID`."

@@ -12,7 +12,7 @@ from time import perf_counter
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from relguide.units import Second
-from relguide_server.jobs.fair_queue import FairQueue
+from relguide_server.shares.fair_queue import FairQueue
 
 LONG: Second = 0.002
 """A pass that takes longer is long."""

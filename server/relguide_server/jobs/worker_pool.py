@@ -7,16 +7,19 @@ which is replaced. A client that leaves takes its job with it.
 """
 
 import asyncio
+import os
 from collections import deque
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from math import inf
 from typing import Any, Literal, get_args
 
 from relguide_server.http.errors import Refusal, log
+from relguide_server.http.logs import SeldomLine
 from relguide_server.jobs.executors import Executor, ProcessExecutor, ThreadExecutor
-from relguide_server.jobs.fair_queue import FairQueue
 from relguide_server.jobs.outcomes import JobDone, Outcome, value_of
+from relguide_server.shares.fair_queue import FairQueue
 
 Kind = Literal["plans", "trials", "long_plans", "simulations", "areas", "batches"]
 """What waits in one queue. `plans` take some hundredths of a second; `trials` are plans of clients
@@ -40,6 +43,10 @@ STOPPING = "The service is stopping: it may be back in a moment."
 INTERRUPTED = "The process that worked on this ended before its time: try again."
 THREADS = 4
 """Hands where jobs are done by threads."""
+PULSE = 1.0
+"""A hand that answered so short a time ago is not asked again whether it does [s]."""
+TO_ANSWER = 3.0
+"""How long a hand that has nothing else to do may take to answer [s]."""
 
 
 @dataclass(slots=True, eq=False)
@@ -91,7 +98,10 @@ class WorkerPool:
         self._turn, self._quick_turn = deque(KINDS), deque(QUICK)
         self._open: set[_Job] = set()
         self._stopped = False
+        self._abandoned = SeldomLine()
         self._ready: set[Executor] = set()
+        self._answered = -inf
+        """When a hand was last asked whether it answers, and did."""
         self._tasks: list[asyncio.Task[None]] = []
         self.done: dict[Kind, int] = dict.fromkeys(KINDS, 0)
         """Jobs done."""
@@ -104,6 +114,23 @@ class WorkerPool:
     def ready(self) -> bool:
         """Whether a hand has done its first job, so that jobs are answered."""
         return bool(self._ready)
+
+    async def answers(self) -> bool:
+        """Whether a hand answers now.
+
+        The first that is ready is asked, if it has nothing to do. One that is busy counts as if it
+        answered: it is killed once its job takes too long, as is one that is asked in vain.
+        """
+        now = asyncio.get_running_loop().time()
+        asked = next((hand for hand in self._hands if hand in self._ready), None)
+        if asked not in self._free or now - self._answered < PULSE:
+            return self.ready
+        try:
+            await self.do("plans", os.getpid, patience=TO_ANSWER)
+        except Refusal:
+            return False
+        self._answered = now
+        return True
 
     @property
     def waiting(self) -> dict[Kind, int]:
@@ -232,7 +259,7 @@ class WorkerPool:
             if not doing.done():
                 self.killed += 1
                 if abandoned:
-                    log.info("A job whose client had left was ended.")
+                    self._abandoned.write("A job whose client had left was ended.")
                 else:
                     log.warning("A job took longer than %.1f s and was ended.", job.patience)
                 job.end(_too_long(job.patience))

@@ -14,8 +14,8 @@ from collections.abc import Callable
 from time import monotonic
 
 from relguide.units import Second
-from relguide_server.jobs.token_bucket import TokenBuckets
 from relguide_server.planning.tasks import PlanReply
+from relguide_server.shares.token_buckets import TokenBuckets
 
 LOOK_SHARE = 0.03
 """Of the event loop, for looks that are in vain or long."""

@@ -24,6 +24,7 @@ from relguide_server.http.bodies import (
     unless_left,
 )
 from relguide_server.http.errors import refusal_of
+from relguide_server.http.idempotency import IdempotentRoute
 from relguide_server.http.openapi import (
     BODY,
     WORK,
@@ -45,7 +46,12 @@ AT_A_TIME = 4
 """Most flights of a request that wait or fly at once."""
 EXAMPLE: list[dict[str, Any]] = [{"scenario": "fig_6b"}, {"scenario": "fig_6b", "seed": 7}]
 
-router = APIRouter(prefix="/api/v1", tags=["flights"], dependencies=[KNOWN_PARAMETERS_ONLY])
+router = APIRouter(
+    prefix="/api/v1",
+    tags=["flights"],
+    dependencies=[KNOWN_PARAMETERS_ONLY],
+    route_class=IdempotentRoute,
+)
 
 
 @router.post(

@@ -4,7 +4,16 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from relguide.flying.documents import Sample
-from relguide_server.records.entries import Began, Commanded, Ended, Entry, FlownDocument, PlanAsked
+from relguide_server.records.entries import (
+    Began,
+    ClearanceNoted,
+    Commanded,
+    Ended,
+    Entry,
+    FlownDocument,
+    PlanAsked,
+)
+from relguide_server.records.noted_clearances import NotedClearances
 from relguide_server.records.recording import Recording, Rows
 
 HELD = 32 * 1024 * 1024
@@ -25,6 +34,7 @@ class Counts:
     documents_lost: int = 0
     commands_lost: int = 0
     plans_lost: int = 0
+    clearances_lost: int = 0
 
 
 class Backlog:
@@ -42,15 +52,16 @@ class Backlog:
         self._reels: dict[str, Recording] = {}
         self._plans: list[dict[str, Any]] = []
         self._planned = 0
+        self._clearances = NotedClearances(run)
 
     @property
     def flying(self) -> bool:
-        """Whether flights are in the air."""
-        return bool(self._reels)
+        """Whether flights are in the air, or clearances live."""
+        return bool(self._reels) or self._clearances.live
 
     def rows(self) -> Rows:
         """What is to be saved now."""
-        rows = Rows(plans=[*self._plans])
+        rows = Rows(plans=[*self._plans], clearances=self._clearances.rows())
         for recording in self._reels.values():
             rows.add(recording.rows(self._run_id, self._version))
         return rows
@@ -60,6 +71,7 @@ class Backlog:
         self.counts.saved += bool(rows) or self.flying
         self.counts.documents += sum(row["count"] for row in rows.chunks)
         self._plans = []
+        self._clearances.note_saved()
         for recording in list(self._reels.values()):
             recording.note_saved()
             if recording.over:
@@ -67,6 +79,7 @@ class Backlog:
 
     def note_replaced(self) -> None:
         """The database may be another one: all of the flights in the air is to be saved again."""
+        self._clearances.note_replaced()
         for recording in self._reels.values():
             recording.note_replaced()
 
@@ -88,6 +101,8 @@ class Backlog:
                 self._reels[flight_id].end(entry)
             case PlanAsked():
                 self._add_plan(entry)
+            case ClearanceNoted():
+                self.counts.clearances_lost += not self._clearances.add(entry)
             case _:
                 pass  # of a flight that is over
 
@@ -119,5 +134,7 @@ class Backlog:
                 self.counts.commands_lost += 1
             case PlanAsked():
                 self.counts.plans_lost += 1
+            case ClearanceNoted():
+                self.counts.clearances_lost += 1
             case Began() | Ended():
                 pass

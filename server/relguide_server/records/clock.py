@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from datetime import UTC, datetime
 
 from relguide.units import Second
 
@@ -27,3 +28,9 @@ class Clock:
         start.
         """
         return abs(self.now() - self.elapsed() - self._offset) < JUMP
+
+
+def date(at: float) -> str:
+    """A Unix time [s] as RFC 3339 has it."""
+    text = datetime.fromtimestamp(at, UTC).isoformat(timespec="milliseconds")
+    return text.replace("+00:00", "Z")

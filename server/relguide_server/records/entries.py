@@ -100,7 +100,31 @@ class PlanAsked:
     """Address of the client."""
 
 
-Entry = Began | FlownDocument | Commanded | Ended | PlanAsked
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClearanceNoted:
+    """A clearance is new, or something of it is: this takes the place of what was known of it."""
+
+    id: str
+    at: float
+    """When it was asked for, Unix time [s]."""
+    changed_at: float
+    """Unix time [s]."""
+    flight_id: str
+    """The flight that asked; empty if it is none of the service."""
+    state: str
+    over: bool
+    """Whether nothing follows its state."""
+    request: str
+    """The body that asked for it, JSON."""
+    card: str
+    """All of it, JSON, as the API shows it."""
+    owner: str
+    """Who asked, as access knows it."""
+    asked_by: str
+    """Address of the client."""
+
+
+Entry = Began | FlownDocument | Commanded | Ended | PlanAsked | ClearanceNoted
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,7 +1,6 @@
 """What is on record: flights to find and read, and plans asked for."""
 
 from collections.abc import Iterator
-from datetime import UTC, datetime
 from typing import Any
 
 import orjson
@@ -9,9 +8,10 @@ import sqlalchemy as sa
 from sqlalchemy.engine import Connection
 
 from relguide_server.records import database
+from relguide_server.records.clock import date
 from relguide_server.records.entries import RecordSearch
 from relguide_server.records.recording import lines_of
-from relguide_server.records.schema import chunks, commands, flights, plans
+from relguide_server.records.schema import chunks, clearances, commands, flights, plans
 from relguide_server.records.store import Store
 
 
@@ -104,6 +104,29 @@ def find_plans(store: Store, search: RecordSearch) -> list[dict[str, Any]]:
         ]
 
 
+def find_clearances(store: Store, state: str | None, most: int) -> list[dict[str, Any]]:
+    """Clearances as the API shows them, the newest first.
+
+    Args:
+        store: where.
+        state: of each; any if left out.
+        most: how many at most.
+    """
+    query = sa.select(clearances.c.card).order_by(clearances.c.at.desc(), clearances.c.id)
+    if state is not None:
+        query = query.where(clearances.c.state == state)
+    with database.reading(store.engine) as connection:
+        return [orjson.loads(card) for card in connection.scalars(query.limit(most))]
+
+
+def read_clearance(store: Store, clearance_id: str) -> dict[str, Any] | None:
+    """A clearance as the API shows it; `None` if there is none."""
+    query = sa.select(clearances.c.card).where(clearances.c.id == clearance_id)
+    with database.reading(store.engine) as connection:
+        card = connection.scalar(query)
+    return None if card is None else orjson.loads(card)
+
+
 def remove_flight(store: Store, flight_id: str) -> str | None:
     """Remove a flight that is over.
 
@@ -116,12 +139,6 @@ def remove_flight(store: Store, flight_id: str) -> str | None:
             return None if row is None else "flying"
         connection.execute(sa.delete(flights).where(flights.c.id == flight_id))
         return str(row["outcome"])
-
-
-def date(at: float) -> str:
-    """A Unix time [s] as RFC 3339 has it."""
-    text = datetime.fromtimestamp(at, UTC).isoformat(timespec="milliseconds")
-    return text.replace("+00:00", "Z")
 
 
 def _within(query: sa.Select[Any], at: sa.Column[float], search: RecordSearch) -> sa.Select[Any]:

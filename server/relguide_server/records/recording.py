@@ -54,9 +54,10 @@ class Rows:
     chunks: list[Row] = field(default_factory=list)
     commands: list[Row] = field(default_factory=list)
     plans: list[Row] = field(default_factory=list)
+    clearances: list[Row] = field(default_factory=list)
 
     def __bool__(self) -> bool:
-        return bool(self.flights or self.chunks or self.commands or self.plans)
+        return bool(self.flights or self.chunks or self.commands or self.plans or self.clearances)
 
     def add(self, other: "Rows") -> None:
         """Save the others too."""
@@ -64,6 +65,7 @@ class Rows:
         self.chunks += other.chunks
         self.commands += other.commands
         self.plans += other.plans
+        self.clearances += other.clearances
 
 
 def lines_of(body: bytes) -> list[bytes]:

@@ -2,6 +2,7 @@
 
 from sqlalchemy import (
     BigInteger,
+    Boolean,
     Column,
     Double,
     ForeignKey,
@@ -14,7 +15,7 @@ from sqlalchemy import (
     Text,
 )
 
-HEAD = "0002"
+HEAD = "0003"
 """The newest revision."""
 
 metadata = MetaData()
@@ -101,3 +102,21 @@ plans = Table(
     Index("plans_at", "at"),
 )
 """Situations that were planned."""
+
+clearances = Table(
+    "clearances",
+    metadata,
+    Column("id", String(32), primary_key=True),
+    Column("run", String(32), ForeignKey("runs.id"), nullable=False, index=True),
+    Column("at", Double, nullable=False, index=True),
+    Column("changed_at", Double, nullable=False),
+    # no key of the flights: one that is not recorded asks as well
+    Column("flight_id", String(32), nullable=False),
+    Column("state", String(20), nullable=False),
+    Column("over", Boolean, nullable=False),
+    Column("request", Text, nullable=False),
+    Column("card", Text, nullable=False),
+    Column("owner", String(255), nullable=False),
+    Column("asked_by", String(255), nullable=False),
+)
+"""Clearances asked for, as they are now."""

@@ -19,7 +19,14 @@ from starlette.requests import HTTPConnection
 from relguide.units import Second
 from relguide_server.http.errors import Refusal
 from relguide_server.records.clock import Clock
-from relguide_server.records.entries import Began, Commanded, FlightCard, PlanAsked, Unavailable
+from relguide_server.records.entries import (
+    Began,
+    ClearanceNoted,
+    Commanded,
+    FlightCard,
+    PlanAsked,
+    Unavailable,
+)
 from relguide_server.records.recorder import FlightRecorder, Recorder
 from relguide_server.records.writer import RetentionLimits, Writer
 
@@ -92,6 +99,11 @@ class RecordsService:
                     flight_id=flight_id, at=self._clock.now(), t=t, body=body, sent_by=sent_by
                 )
             )
+
+    def note_clearance(self, noted: ClearanceNoted) -> None:
+        """Record what is new of a clearance."""
+        if self._writer is not None:
+            self._writer.put(noted)
 
     def note_plan(
         self, body: bytes, *, planner: str, status: str, seconds: Second, asked_by: str
@@ -169,6 +181,7 @@ class RecordsService:
             ("documents_lost", counts.documents_lost, "Documents not kept."),
             ("commands_lost", counts.commands_lost, "Commands not kept."),
             ("plans_lost", counts.plans_lost, "Plans not kept, too many a second."),
+            ("clearances_lost", counts.clearances_lost, "Changes of clearances not kept."),
         ):
             yield CounterMetricFamily(f"relguide_records_{name}", said, value=value)
 

@@ -11,9 +11,11 @@ from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.engine import URL, Connection, Engine
 
 from relguide_server.records import database
+from relguide_server.records.clock import date
 from relguide_server.records.entries import Unavailable
+from relguide_server.records.noted_clearances import KILLED, ended
 from relguide_server.records.recording import Row, Rows
-from relguide_server.records.schema import chunks, commands, flights, plans, runs
+from relguide_server.records.schema import chunks, clearances, commands, flights, plans, runs
 
 AT_A_TIME = 20
 """Most flights that are forgotten in one transaction."""
@@ -63,19 +65,22 @@ class Store:
             _upsert(connection, chunks, rows.chunks, replace=True)
             _upsert(connection, commands, rows.commands, replace=False)
             _upsert(connection, plans, rows.plans, replace=False)
+            _upsert(connection, clearances, rows.clearances, replace=True)
 
     def beats(self) -> dict[str, int]:
-        """Runs other than this one that have flights in the air, and how far each has counted."""
+        """Other runs whose flights or clearances live, and how far each of them has counted."""
+        flying = sa.select(flights.c.run).where(flights.c.outcome == "flying")
+        cleared = sa.select(clearances.c.run).where(clearances.c.over.is_(False))
         query = (
             sa.select(runs.c.id, runs.c.beat)
-            .where(runs.c.id.in_(sa.select(flights.c.run).where(flights.c.outcome == "flying")))
+            .where(runs.c.id.in_(flying) | runs.c.id.in_(cleared))
             .where(runs.c.id != self._run["id"])
         )
         with database.reading(self.engine) as connection:
             return {run: beat for run, beat in connection.execute(query)}
 
     def interrupt(self, still: Mapping[str, int]) -> int:
-        """Note that the flights of killed runs were interrupted.
+        """Note that the flights of killed runs were interrupted, and end their clearances.
 
         Args:
             still: runs whose count stands still, and where.
@@ -93,6 +98,7 @@ class Store:
                     .where(flights.c.run.in_(killed), flights.c.outcome == "flying")
                     .values(outcome="interrupted", ended_at=last)
                 ).rowcount
+                _end_clearances(connection, run, beat)
         return done
 
     def forget(self, *, before: float, most_bytes: float, most_plans: int) -> int:
@@ -116,6 +122,8 @@ class Store:
             gone = list(dict.fromkeys([*old, *too_many]))
             connection.execute(sa.delete(flights).where(flights.c.id.in_(gone)))
             connection.execute(sa.delete(plans).where(plans.c.at < before))
+            forgotten = clearances.c.over.is_(True), clearances.c.changed_at < before
+            connection.execute(sa.delete(clearances).where(*forgotten))
             oldest_kept = connection.scalar(
                 sa.select(plans.c.at).order_by(plans.c.at.desc()).offset(most_plans).limit(1)
             )
@@ -145,6 +153,20 @@ def _oldest_beyond(connection: Connection, most_bytes: float) -> Sequence[str]:
         if excess <= 0.0:
             break
     return found
+
+
+def _end_clearances(connection: Connection, run: str, beat: int) -> None:
+    """End what a killed run left open."""
+    seen = connection.scalar(sa.select(runs.c.seen_at).where(runs.c.id == run, runs.c.beat == beat))
+    if seen is None:
+        return  # it lives
+    left = sa.select(clearances.c.id, clearances.c.card).where(
+        clearances.c.run == run, clearances.c.over.is_(False)
+    )
+    for one, card in connection.execute(left).all():
+        state, now = ended(card, at=date(seen), message=KILLED)
+        values = {"state": state, "card": now, "over": True, "changed_at": seen}
+        connection.execute(sa.update(clearances).where(clearances.c.id == one).values(values))
 
 
 def _upsert(connection: Connection, table: sa.Table, rows: Iterable[Row], *, replace: bool) -> None:

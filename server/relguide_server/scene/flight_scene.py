@@ -23,6 +23,7 @@ from relguide.flying.aircraft_documents import (
 from relguide.flying.documents import (
     Alert,
     AssignmentChanged,
+    ClearanceNews,
     CommandGiven,
     ControlChanged,
     Document,
@@ -189,7 +190,7 @@ class FlightScene:
             case Alert():
                 if document.ident == link.pursuer and self._surroundings is not None:
                     self._surroundings.warn(document)
-            case PlanRefused() | PromiseChanged() | FanChanged() | Unable():
+            case PlanRefused() | PromiseChanged() | FanChanged() | Unable() | ClearanceNews():
                 pass  # for the navigation display
             case CommandGiven() | ControlChanged() | AssignmentChanged():
                 pass  # what they change is seen in the samples and plans

@@ -1,8 +1,6 @@
 """The thread that draws a flight in 3D, as long as it has viewers."""
 
 import asyncio
-import secrets
-import sys
 import threading
 import time
 from collections.abc import Sequence
@@ -13,7 +11,10 @@ from relguide.flying.documents import Document
 from relguide.planning.frames import LocalPlane
 from relguide_server.http.errors import run_logged
 from relguide_server.scene.extrapolation import Glide
+from relguide_server.scene.guarded_port import guard_viser
 from relguide_server.scene.inbox import Inbox
+
+LOOPBACK = "127.0.0.1"
 
 
 class SceneStage:
@@ -59,8 +60,8 @@ class SceneStage:
         from relguide_server.scene.wakeups import wake_safely
 
         rich.get_console().quiet = True  # viser says goodbye there each time a scene closes
-        host = _hidden_host()
-        server = ViserServer(host=host, port=0, verbose=False)
+        guard_viser()
+        server = ViserServer(host=LOOPBACK, port=0, verbose=False)
         wake_safely(server._websock_server.get_message_buffer())
         server.on_client_connect(
             lambda client: wake_safely(client._websock_connection.get_message_buffer())
@@ -68,7 +69,7 @@ class SceneStage:
         try:
             scene = FlightScene(server, self._plane)
             scene.draw(self._past)
-            self._answer(f"{host}:{server.get_port()}")
+            self._answer(f"{LOOPBACK}:{server.get_port()}")
             glide = Glide()
             while not self._inbox.closed:
                 if documents := self._inbox.wait(glide.patience(time.monotonic())):
@@ -85,14 +86,3 @@ class SceneStage:
                 self._address.set_result(address)
 
         self._loop.call_soon_threadsafe(settle)
-
-
-def _hidden_host() -> str:
-    """An address of this machine's own for a scene, which nobody guesses.
-
-    Viser takes commands from every page that finds it, whatever its origin. Of the addresses from
-    127.0.0.0 to 127.255.255.255, all of which Linux answers to, one is drawn.
-    """
-    if sys.platform != "linux":
-        return "127.0.0.1"
-    return ".".join(map(str, (127, *(1 + secrets.randbelow(254) for _ in range(3)))))

@@ -11,6 +11,8 @@ TOKENS = "control:" + 16 * "x"
 def test_a_service_that_is_open_to_all_is_said_to_be(host: str) -> None:
     assert open_to_all(host, "").startswith(f"Everyone that reaches {host} may")
     assert "RELGUIDE_TOKENS" in open_to_all(host, "")
+    assert "delete records" not in open_to_all(host, "")
+    assert "delete records" in open_to_all(host, "", "on")
     assert open_to_all(host, TOKENS) == ""
 
 

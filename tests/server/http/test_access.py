@@ -6,8 +6,9 @@ from collections.abc import Iterator
 import httpx2 as httpx
 import pytest
 from relguide_server.flights.scene_relay import may_pass
-from relguide_server.http.access import read_tokens
+from relguide_server.http.access import may_answer, read_tokens
 from relguide_server.planning.plans import EXAMPLE
+from starlette.requests import HTTPConnection
 from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
 from websockets.typing import Origin, Subprotocol
@@ -18,7 +19,13 @@ from tests.server.flown import ideal_flight
 from tests.server.serving import TestClient, ideal_app, serve
 from tests.server.test_api import is_problem
 
-TOKENS = {"view": "v" * 16, "fly": "f" * 16, "other": "o" * 16, "control": "c" * 16}
+TOKENS = {
+    "view": "v" * 16,
+    "fly": "f" * 16,
+    "other": "o" * 16,
+    "atc": "a" * 16,
+    "control": "c" * 16,
+}
 SETTING = ",".join(f"{'fly' if who == 'other' else who}:{token}" for who, token in TOKENS.items())
 FLIGHT = {"scenario": "ideal", "paused": True}
 
@@ -89,23 +96,23 @@ def test_a_foreign_page_does_not_listen() -> None:
 @pytest.mark.parametrize(
     ("method", "path", "body", "statuses"),
     [
-        # in the order of no token, view, fly, control
-        ("GET", "/healthz", None, (200, 200, 200, 200)),
-        ("GET", "/metrics", None, (401, 200, 200, 200)),
-        ("GET", "/openapi.json", None, (401, 200, 200, 200)),
-        ("GET", "/api/v1/flights", None, (401, 200, 200, 200)),
-        ("GET", "/scene/none/", None, (401, 404, 404, 404)),
-        ("POST", "/api/v1/plans", EXAMPLE, (401, 200, 200, 200)),
-        ("POST", "/api/v1/flights", FLIGHT, (401, 403, 201, 201)),
-        ("POST", "/api/v1/flights/none/commands", {"command": "play"}, (401, 403, 404, 404)),
-        ("DELETE", "/api/v1/flights/none", None, (401, 403, 404, 404)),
-        ("DELETE", "/api/v1/records/flights/none", None, (401, 403, 403, 404)),
+        # in the order of no token, view, fly, atc, control
+        ("GET", "/healthz", None, (200, 200, 200, 200, 200)),
+        ("GET", "/metrics", None, (401, 200, 200, 200, 200)),
+        ("GET", "/openapi.json", None, (401, 200, 200, 200, 200)),
+        ("GET", "/api/v1/flights", None, (401, 200, 200, 200, 200)),
+        ("GET", "/scene/none/", None, (401, 404, 404, 404, 404)),
+        ("POST", "/api/v1/plans", EXAMPLE, (401, 200, 200, 200, 200)),
+        ("POST", "/api/v1/flights", FLIGHT, (401, 403, 201, 403, 201)),
+        ("POST", "/api/v1/flights/none/commands", {"command": "play"}, (401, 403, 404, 403, 404)),
+        ("DELETE", "/api/v1/flights/none", None, (401, 403, 404, 403, 404)),
+        ("DELETE", "/api/v1/records/flights/none", None, (401, 403, 403, 403, 404)),
     ],
 )
 def test_what_each_token_may(
     guarded: TestClient, method: str, path: str, body: object, statuses: tuple[int, ...]
 ) -> None:
-    for who, status in zip(("", "view", "fly", "control"), statuses, strict=True):
+    for who, status in zip(("", "view", "fly", "atc", "control"), statuses, strict=True):
         headers = {"Authorization": f"Bearer {TOKENS[who]}"} if who else {}
         answer = guarded.request(method, path, json=body, headers=headers)
         assert answer.status_code == status, (who, answer.text)
@@ -123,6 +130,62 @@ def test_a_flight_is_commanded_by_its_owner_alone(guarded: TestClient) -> None:
     assert ask("other", "GET", place).status_code == 200
     assert ask("other", "DELETE", place).status_code == 403
     assert ask("control", "DELETE", place).status_code == 204
+
+
+def test_open_to_other_machines_without_tokens_a_client_has_its_own_flights_alone() -> None:
+    with TestClient(ideal_app(exposed=True)) as app:
+        first, second = (TestClient(app.app, client=(f"192.0.2.{k}", 1)) for k in (1, 2))
+        place = first.post("/api/v1/flights", json=FLIGHT).headers["location"]
+        for client, status in ((second, 403), (first, 202)):
+            answer = client.post(f"{place}/commands", json={"command": "pause"})
+            assert answer.status_code == status
+        refused = second.delete(place)
+        is_problem(refused, 403, place)
+        assert "RELGUIDE_OPEN_CONTROL=on" in refused.json()["detail"]
+        assert second.get(place).status_code == 200
+        assert second.post("/api/v1/plans", json=EXAMPLE).status_code == 200
+        assert first.delete(place).status_code == 204
+        for client, method, path in (
+            (app, "DELETE", "/api/v1/records/flights/none"),  # from this machine, or through a NAT
+            (first, "DELETE", "/api/v1/records/flights/none"),
+            (first, "PUT", "/api/v1/traffic"),
+            (first, "PUT", "/api/v1/airspaces"),
+        ):
+            refused = client.request(method, path)
+            is_problem(refused, 403, path)
+            assert "RELGUIDE_OPEN_CONTROL=on" in refused.json()["detail"]
+
+
+@pytest.mark.parametrize(
+    ("address", "guest"),
+    [
+        ("127.0.0.1", False), ("127.9.9.9", False), ("::1", False), ("::ffff:127.0.0.1", False),
+        ("192.0.2.1", True), ("2001:db8::1", True), ("unknown", True),
+    ],
+)  # fmt: skip
+def test_who_asks_through_a_proxy_on_this_machine_is_a_guest_too(address: str, guest: bool) -> None:
+    with TestClient(ideal_app(), client=(address, 1)) as client:
+        answer = client.delete("/api/v1/records/flights/none")
+    assert answer.status_code == (403 if guest else 404)
+
+
+@pytest.mark.parametrize("settings", [{"open_control": "on"}, {"tokens": SETTING}])
+def test_control_may_be_open_to_all_or_to_a_token(settings: dict[str, str]) -> None:
+    headers = {"Authorization": f"Bearer {TOKENS['control']}"}
+    app = ideal_app(exposed=True, **settings)
+    with TestClient(app, client=("192.0.2.1", 1), headers=headers) as client:
+        assert client.delete("/api/v1/records/flights/none").status_code == 404
+
+
+def test_a_controller_answers_for_all_flights_and_a_guest_for_its_own() -> None:
+    def asks(role: str, owner: str) -> HTTPConnection:
+        return HTTPConnection({"type": "http", "state": {"role": role, "owner": owner}})
+
+    for role, owner, may in (
+        ("atc", "x", True), ("control", "", True), ("guest", "a", True), ("guest", "b", False),
+        ("fly", "a", False), ("view", "a", False),
+    ):  # fmt: skip
+        assert may_answer(asks(role, owner), "a") == may
 
 
 def test_a_browser_shows_its_token_once(guarded: TestClient) -> None:

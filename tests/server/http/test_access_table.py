@@ -4,15 +4,16 @@ import asyncio
 import gzip
 import json
 import socket
-import sys
 from collections.abc import Iterator
 
 import httpx2 as httpx
 import pytest
+import viser
 from relguide_server.app import create_app
+from relguide_server.doors.connections import LONGEST_HEAD
 from relguide_server.http.access import NO_TOKEN, ROLES, UNKNOWN_TOKEN
-from relguide_server.http.connections import LONGEST_HEAD
 from relguide_server.planning.plans import EXAMPLE
+from relguide_server.scene.guarded_port import HEADER, SECRET
 from relguide_server.settings import ServiceSettings
 from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
@@ -25,8 +26,29 @@ from tests.server.test_api import is_problem
 
 FLOOD = 32 * 1024 * 1024
 """More than the system's own buffers hold [bytes]."""
+WHO = {
+    "open": ("", *ROLES),
+    "view": ROLES,
+    "fly": ("fly", "control"),
+    "answer": ("atc", "control"),
+    "control": ("control",),
+}
+"""Whom each word of the table lets pass; nobody needs a token for "open"."""
+TO_COME = {
+    ("POST", "/api/v1/clearances"): "fly",
+    ("POST", "/api/v1/clearances?dry_run=true"): "view",
+    ("POST", "/api/v1/clearances?dry_run=true&dry_run=false"): "fly",
+    ("POST", "/api/v1/clearances/none/answers"): "answer",
+    ("POST", "/api/v1/clearances/none/replies"): "fly",
+    ("GET", "/api/v1/clearances"): "view",
+    ("PUT", "/api/v1/traffic"): "answer",
+    ("PUT", "/api/v1/airspaces"): "answer",
+    ("POST", "/api/v1/feeds"): "answer",
+    ("DELETE", "/api/v1/feeds/none"): "answer",
+    ("GET", "/api/v1/traffic"): "view",
+}
+"""What is said of addresses without a route here: who may passes, and finds none."""
 TABLE = {
-    # who may at least; nobody needs a token for "open"
     ("GET", "/healthz"): "open",
     ("GET", "/readyz"): "open",
     ("GET", "/metrics"): "view",
@@ -61,6 +83,12 @@ TABLE = {
     ("GET", "/api/v1/records/flights/{flight_id}/documents"): "view",
     ("POST", "/api/v1/records/flights/{flight_id}/replay"): "fly",
     ("GET", "/api/v1/records/flights/{flight_id}/export"): "view",
+    ("GET", "/api/v1/traffic"): "view",
+    ("PUT", "/api/v1/traffic"): "control",
+    ("DELETE", "/api/v1/traffic"): "control",
+    ("GET", "/api/v1/airspaces"): "view",
+    ("PUT", "/api/v1/airspaces"): "control",
+    ("DELETE", "/api/v1/airspaces"): "control",
 }
 
 
@@ -82,21 +110,17 @@ def test_the_table_has_every_route() -> None:
     assert described <= set(TABLE)
 
 
-@pytest.mark.parametrize(("route", "needed"), TABLE.items())
+@pytest.mark.parametrize(("route", "needed"), (TABLE | TO_COME).items())
 def test_who_may(guarded: TestClient, route: tuple[str, str], needed: str) -> None:
     method, path = route
     path = path.format(flight_id="none", name="none")
     for who in ("", *ROLES):
         headers = {"Authorization": f"Bearer {TOKENS[who]}"} if who else {}
         status = guarded.request(method, path, headers=headers, follow_redirects=False).status_code
-        if needed == "open":
+        if who in WHO[needed]:
             assert status not in (401, 403), who
-        elif not who:
-            assert status == 401
-        elif ROLES.index(who) < ROLES.index(needed):
-            assert status == 403, who
         else:
-            assert status not in (401, 403), who
+            assert status == (403 if who else 401), who
 
 
 def test_sockets_need_a_token() -> None:
@@ -123,9 +147,8 @@ def test_sockets_need_a_token() -> None:
         assert asyncio.run(listen(address, started["stream_url"], TOKENS["view"])) == (101, "")
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="other systems have one loopback address")
-def test_a_scene_is_not_where_a_page_would_look_for_it() -> None:
-    """Viser itself takes commands from pages of any origin."""
+def test_the_port_of_a_scene_is_for_the_service_alone() -> None:
+    """Viser itself takes commands from all that connect."""
     app = ideal_app()
 
     async def find() -> str:
@@ -133,15 +156,26 @@ def test_a_scene_is_not_where_a_page_would_look_for_it() -> None:
         address: str = await flight.enter_scene()
         return address
 
+    async def dial(address: str, headers: dict[str, str]) -> int:
+        protocols = [Subprotocol(f"viser-v{viser.__version__}")]
+        url = f"ws://{address}"
+        try:
+            async with connect(
+                url, subprotocols=protocols, additional_headers=headers, proxy=None, max_size=None
+            ) as scene:
+                await scene.recv()
+        except InvalidStatus as refused:
+            return refused.response.status_code
+        return 101
+
     with TestClient(app) as client:
         client.post("/api/v1/flights", json=FLIGHT)
-        host, _, port = client.portal.call(find).partition(":")
-        assert host.startswith("127.")
-        with socket.create_connection((host, int(port)), 5.0):
-            pass
-        for other in ("127.0.0.1", socket.gethostbyname(socket.gethostname())):
-            with pytest.raises(OSError, match=r"refused|unreachable|timed out"):
-                socket.create_connection((other, int(port)), 0.5)
+        address = client.portal.call(find)
+        assert address.startswith("127.0.0.1:")
+        for headers in ({}, {HEADER: ""}, {HEADER: SECRET[:-1]}, {"Origin": f"http://{address}"}):
+            assert asyncio.run(dial(address, headers)) == 403
+        assert asyncio.run(dial(address, {HEADER: SECRET})) == 101
+        assert httpx.get(f"http://{address}/").status_code == 403
 
 
 @pytest.mark.parametrize(
@@ -251,7 +285,7 @@ def test_a_large_body_is_no_head() -> None:
 
 
 def test_a_head_that_never_comes_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("relguide_server.http.connections.HEAD_PATIENCE", 0.3)
+    monkeypatch.setattr("relguide_server.doors.connections.HEAD_PATIENCE", 0.3)
     with serve(ideal_app()) as address:
         host, _, port = address.partition(":")
         for begun in (b"", b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Slow: "):

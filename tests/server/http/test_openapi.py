@@ -8,6 +8,8 @@ import jsonschema_rs
 import pytest
 import schemathesis
 from hypothesis import HealthCheck, settings
+from relguide_server.http.idempotency import HEADER
+from relguide_server.http.kept_answers import REPLAYED
 from relguide_server.http.openapi import HEADERS
 from relguide_server.http.security_headers import SECURITY_HEADERS
 from relguide_server.planning.plans import EXAMPLE
@@ -206,6 +208,25 @@ def test_what_is_sent_is_what_is_declared(
     _expect_declared(DOCUMENT, method, path, answer)
 
 
+def test_an_answer_that_is_sent_again_says_so() -> None:
+    asked = {"json": {"scenario": "ideal"}, "headers": {HEADER: "7e3c"}}
+    with TestClient(ideal_app()) as asking:
+        first, again = (asking.post("/api/v1/flights", **asked) for _ in range(2))
+    _expect_declared(DOCUMENT, "POST", "/api/v1/flights", first)
+    _expect_declared(DOCUMENT, "POST", "/api/v1/flights", again, replayed=True)
+    takes = {
+        f"{method} {path}"
+        for path, method, operation in operations()
+        if HEADER in [parameter["name"] for parameter in operation.get("parameters", ())]
+    }
+    assert takes == {
+        "post /api/v1/flights",
+        "post /api/v1/flights/{flight_id}/commands",
+        "post /api/v1/simulations",
+        "post /api/v1/records/flights/{flight_id}/replay",
+    }
+
+
 def test_refusals_for_a_while_say_when_to_try_again() -> None:
     with TestClient(ideal_app(max_flights=1)) as asking:
         asking.post("/api/v1/flights", json={"scenario": "ideal"})
@@ -221,10 +242,12 @@ def test_who_shows_no_token_is_told_how() -> None:
         _expect_declared(DOCUMENT, "GET", "/api/v1/flights", answer)
 
 
-def _expect_declared(document: dict[str, Any], method: str, path: str, answer: Any) -> None:
+def _expect_declared(
+    document: dict[str, Any], method: str, path: str, answer: Any, *, replayed: bool = False
+) -> None:
     declared = document["paths"][path][method.lower()]["responses"][str(answer.status_code)]
     assert answer.headers["content-type"].partition(";")[0] in declared["content"]
-    promised = {name.lower() for name in declared["headers"]}
+    promised = {name.lower() for name in declared["headers"] if replayed or name != REPLAYED}
     ours = {name.lower() for name in answer.headers} - ITS_OWN
     assert (
         ours - {name.decode() for name in SECURITY_HEADERS if b"relguide" not in name} == promised

@@ -86,6 +86,7 @@ def test_a_client_that_left_is_one_line(lines: StringIO) -> None:
         )
         writer.write((head + body).encode())
         await writer.drain()
+        await asyncio.sleep(0.2)
         writer.close()
         await writer.wait_closed()
         await asyncio.sleep(0.3)

@@ -320,3 +320,40 @@ def test_clients_of_a_kind_take_turns() -> None:
 
     with_workers(1, scene)
     assert done.index("modest") <= 1
+
+
+def test_workers_that_are_frozen_do_not_answer_until_they_are_replaced(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("relguide_server.jobs.worker_pool.TO_ANSWER", 0.3)
+    monkeypatch.setattr("relguide_server.jobs.worker_pool.PULSE", 0.0)
+
+    async def scene(workers: WorkerPool) -> None:
+        await until(workers.answers)
+        await asyncio.gather(*(workers.do("plans", nap, 0.3, patience=ANY) for _ in range(2)))
+        frozen = list(workers.processes)
+        for process in frozen:
+            os.kill(process, signal.SIGSTOP)
+        assert not await workers.answers()
+        await until(workers.answers)
+        assert set(workers.processes) != set(frozen)
+
+    with_workers(2, scene)
+
+
+def test_a_worker_that_is_busy_counts_as_if_it_answered() -> None:
+    async def scene(workers: WorkerPool) -> None:
+        await until(workers.answers)
+        busy = asyncio.create_task(workers.do("plans", nap, 2.0, patience=ANY))
+        await asyncio.sleep(0.1)
+        assert await asyncio.wait_for(workers.answers(), 1.0)
+        assert not busy.done()
+        await busy
+
+    with_workers(1, scene)
+
+
+async def until(happens: Callable[[], Awaitable[bool]]) -> None:
+    async with asyncio.timeout(ANY):
+        while not await happens():
+            await asyncio.sleep(0.05)

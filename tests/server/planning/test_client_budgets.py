@@ -1,7 +1,6 @@
 """What clients may take of the kept worker, and of the event loop."""
 
 import pytest
-from relguide_server.jobs.token_bucket import KEPT
 from relguide_server.planning.client_budgets import (
     ENOUGH,
     LOOK_SAVED,
@@ -11,6 +10,7 @@ from relguide_server.planning.client_budgets import (
     ClientBudgets,
 )
 from relguide_server.planning.tasks import PlanReply
+from relguide_server.shares.token_buckets import KEPT
 
 
 def made(processor: float, *, cut: bool = False) -> PlanReply:

@@ -16,11 +16,11 @@ from multiprocessing.connection import Connection
 
 from relguide_server.records.clock import Clock
 from relguide_server.records.entries import Began, Commanded
-from relguide_server.records.queries import each_chunk, read_flight
+from relguide_server.records.queries import each_chunk, read_clearance, read_flight
 from relguide_server.records.recorder import FlightRecorder
 
 from tests.server.flown import ideal_flight
-from tests.server.records.flown_cards import card
+from tests.server.records.flown_cards import card, noted
 from tests.server.records.places import Home
 
 TOGETHER = 4
@@ -35,6 +35,8 @@ class Lost:
     commands: int
     documents: int
     """Gaps among those that are there."""
+    clearances: int
+    """Changes of clearances."""
     acknowledged: int
 
 
@@ -43,7 +45,7 @@ FORKS.set_forkserver_preload(["tests.server.records.places", "tests.server.flown
 
 
 def record(url: str, run: str, said: Connection) -> None:
-    """Record flights until killed; say the name of each flight, and its commands, once saved."""
+    """Record flights until killed; say each flight, its commands and clearance, once saved."""
     home = Home(url)
     writer = home.writer(run=run)
     documents = list(ideal_flight(duration=60.0))
@@ -64,6 +66,7 @@ def record(url: str, run: str, said: Connection) -> None:
                 writer.put(
                     Commanded(flight_id=names[0], at=0.0, t=document.t, body=order, sent_by="")
                 )
+                writer.put(noted(names[0], "flying", steps=k + 1))
                 if asyncio.run(writer.saved(10.0)):
                     said.send((names[0], k))
         for recorder in recorders:
@@ -92,7 +95,7 @@ def kill_once(url: str, run: str, after: float) -> Lost:
     reader.close()
     home = Home(url)
     store = home.store()
-    flights = commands = gaps = 0
+    flights = commands = changes = gaps = 0
     kept = {name: read_flight(store, name) for name, _ in whole}
     for name, order in whole:
         found = kept[name]
@@ -100,11 +103,13 @@ def kill_once(url: str, run: str, after: float) -> Lost:
             flights += 1
         elif order is not None:
             commands += order not in [c["command"]["k"] for c in found["commands"]]
+            cleared = read_clearance(store, name)
+            changes += cleared is None or len(cleared["history"]) <= order
     for name, found in kept.items():
         count = sum(len(lines) for lines in each_chunk(store, name))
         gaps += found is not None and found["documents"] != count + found["lost"]
     home.close()
-    return Lost(flights, commands, gaps, len(whole))
+    return Lost(flights, commands, gaps, changes, len(whole))
 
 
 def main() -> int:
@@ -118,7 +123,9 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         url = chosen.url or f"sqlite:///{folder}/records.sqlite3"
         rounds = [kill_once(url, f"run{k}", rng.uniform(0.0, 0.8)) for k in range(chosen.rounds)]
-    lost = [one for one in rounds if one.flights or one.commands or one.documents]
+    lost = [
+        one for one in rounds if any((one.flights, one.commands, one.documents, one.clearances))
+    ]
     acknowledged = sum(one.acknowledged for one in rounds)
     sys.stdout.write(
         f"{len(rounds)} kills, {acknowledged} acknowledged, rounds that lost something: {lost}\n"

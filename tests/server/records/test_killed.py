@@ -28,7 +28,7 @@ from tests.server.records.test_writer import row_of, wait_for
 @pytest.mark.parametrize("after", [0.05, 0.4])
 def test_what_was_acknowledged_survives_a_kill(url: str, after: float) -> None:
     lost = kill_once(url, "killed", after)
-    assert (lost.flights, lost.commands, lost.documents) == (0, 0, 0)
+    assert (lost.flights, lost.commands, lost.documents, lost.clearances) == (0, 0, 0, 0)
     assert lost.acknowledged >= 4
 
 

@@ -76,7 +76,7 @@ def test_a_flight_is_found_and_read(client: TestClient, tmp_path: Path) -> None:
     found = record_of(client, flight_id)
     assert found["request"] == {"scenario": "ideal", "rate": 60.0}
     assert found["settings"]["planner"] == "exact"
-    assert (found["seed"], found["lost"], found["requested_by"]) == (0, 0, "testclient")
+    assert (found["seed"], found["lost"], found["requested_by"]) == (0, 0, "127.0.0.1")
     assert found["figures"]["simulated_s"] == 30.0
     assert found["figures"]["plans"] == 1
     base = "/api/v1/records/flights"

@@ -1,20 +1,25 @@
 /** What the crew does beside engaging: takes control and gives it back, selects bank, speed and spacing. */
 
 import { effect } from "@preact/signals";
+import { tellControl } from "../clearance";
 import { type Actions, isFlying, type Session } from "../session";
 import type { Stream } from "../stream";
 import { formatKnots, formatMiles, inPageUnits } from "../units";
-import type { Command, ControlAnswer } from "../wire";
+import type { Command, ControlAnswer, Engagement } from "../wire";
 import { flyByHand } from "./hand-flying";
 
 /** Nobody flies faster than this by hand [s of flight per s]. */
 const MOST_RATE = 5;
 const LOST = "The connection to the server is lost.";
 
-export type Crew = Pick<
-  Actions,
-  "setAutopilot" | "setDirector" | "selectBank" | "selectSpeed" | "setSpacing"
->;
+export interface Crew
+  extends Pick<
+    Actions,
+    "setAutopilot" | "setDirector" | "selectBank" | "selectSpeed" | "setSpacing"
+  > {
+  /** Guidance was brought so far: the controller is told. */
+  tellControl(engagement: Engagement): void;
+}
 
 /** What a crew acts by. */
 export interface Means {
@@ -97,6 +102,7 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
   });
 
   return {
+    tellControl: (engagement) => void tellControl(session, engagement, say),
     setAutopilot(on, director = withDirector) {
       withDirector = director;
       if (on) giveBack();

@@ -1,21 +1,27 @@
 import { useComputed } from "@preact/signals";
 import type { Colour } from "../store/colours";
-import type { Picture } from "../store/picture";
+import type { OrderWord } from "../store/picture";
 import { Cell } from "./cell";
 import { type LayerProps, usePart } from "./layer";
 import { READOUTS } from "./view";
 
-const COLOURS: Record<Picture["order"], Colour> = {
-  "": "label",
+const COLOURS: Record<OrderWord, Colour> = {
   SENT: "label",
   ACCEPTED: "armed",
   REJECTED: "caution",
+  STANDBY: "label",
+  VALIDATED: "plan",
+  UNABLE: "caution",
+  WILCO: "armed",
+  CLEARED: "plan",
+  DEVIATING: "caution",
+  ENDED: "label",
 };
 
-/** What became of the crew's last order, under the modes. */
+/** What became of the crew's last order, or what air traffic control answered, under the modes. */
 export function OrderStatus({ shown }: LayerProps) {
   const order = usePart(shown, (picture) => picture.order);
-  const colour = useComputed(() => COLOURS[order.value]);
+  const colour = useComputed(() => COLOURS[order.value.split(" ")[0] as OrderWord] ?? "label");
   const { width } = READOUTS.fma;
   return (
     <g class="nd-atc">

@@ -12,6 +12,7 @@ const KIND_NAMES: Record<Message["kind"], string> = {
   leader: "LEADER",
   mode: "MODE",
   engagement: "CREW",
+  clearance: "ATC",
   advisory: "ADVICE",
   caution: "CAUTION",
   warning: "WARNING",

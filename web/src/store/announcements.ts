@@ -49,13 +49,22 @@ function politeOf(flight: Moment): string {
   const advice = flight.alerts
     .filter(({ level }) => level === "advisory")
     .map((each) => alertSentence(flight, each));
-  return [state, crewSentence(flight), ...advice].filter((each) => each !== "").join(" ");
+  return [state, crewSentence(flight), clearanceSentence(flight, false), ...advice]
+    .filter((each) => each !== "")
+    .join(" ");
 }
 
 /** What became of the crew's last order on who flies, or on what guidance is to do. */
 function crewSentence({ control, assignment }: Moment): string {
   const isAssigned = (assignment?.t_s ?? 0) > (control?.t_s ?? 0);
   return inPageUnits((isAssigned ? assignment : control)?.message ?? "");
+}
+
+/** What air traffic control says: at once where something is wrong. */
+function clearanceSentence({ clearance }: Moment, isUrgent: boolean): string {
+  if (clearance === null) return "";
+  const isWrong = clearance.level === "caution" || clearance.level === "warning";
+  return isWrong === isUrgent ? inPageUnits(clearance.message) : "";
 }
 
 /** What guidance does, or what the crew can do: of several sentences on one event, one. */
@@ -108,6 +117,7 @@ function assertiveOf(flight: Moment): string {
   for (const alert of flight.alerts)
     if (alert.level !== "advisory" && !(isLost && isOfLoss(alert)))
       sentences.push(alertSentence(flight, alert));
+  if (clearanceSentence(flight, true) !== "") sentences.push(clearanceSentence(flight, true));
   const seconds = leaderAge(flight);
   if (state === "data_lost")
     sentences.push(

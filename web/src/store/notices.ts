@@ -125,6 +125,9 @@ export function noticesOf(flight: Moment): readonly Notice[] {
   if (!seen.guidance || flight.now === null) return notices;
   for (const alert of flight.alerts)
     notices.push({ level: ALERT_NOTICE[alert.level], text: alertText(flight, alert) });
+  const { clearance } = flight;
+  if (clearance !== null && (clearance.level === "caution" || clearance.level === "warning"))
+    notices.push({ level: clearance.level, text: `ATC ${clearance.clearance.toUpperCase()}` });
   const prompt = promptOf(flight, state);
   if (prompt !== null) notices.push(prompt);
   const [unavailable, unable] = [flight.unavailable, flight.unable];

@@ -95,6 +95,7 @@ export function isAbout(document: Document, pair: PairCard): boolean {
     case "engagement_changed":
     case "control_changed":
     case "assignment_changed":
+    case "clearance_news":
     case "plan_unavailable":
     case "plan_refused":
     case "mode_changed":

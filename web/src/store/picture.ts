@@ -8,6 +8,7 @@ import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometr
 import { KT, NM } from "../units";
 import type {
   AircraftSample,
+  ClearanceStatus,
   ComparedPlanner,
   FanChanged,
   ForecastChanged,
@@ -72,8 +73,19 @@ export interface TurnAhead extends Turn {
   readonly to: PathPoint;
 }
 
-/** The crew's last order: sent to the service, accepted by it, or refused. */
-export type Order = "" | "SENT" | "ACCEPTED" | "REJECTED";
+/** What became of the crew's last order, or of the manoeuvre that was sent to air traffic control: a word first. */
+export type Order = "" | `${OrderWord}${"" | ` ${string}`}`;
+export type OrderWord =
+  | "SENT"
+  | "ACCEPTED"
+  | "REJECTED"
+  | "STANDBY"
+  | "VALIDATED"
+  | "UNABLE"
+  | "WILCO"
+  | "CLEARED"
+  | "DEVIATING"
+  | "ENDED";
 
 /** A whole minute of the plan, and where both will be. */
 export interface MinuteAhead {
@@ -338,7 +350,27 @@ function orderOf(flight: Moment, state: Guidance): Order {
   const answer = flight.engagement;
   const since = answer === null ? Number.POSITIVE_INFINITY : flight.t - answer.t_s;
   if (answer?.engagement === answer?.previous && since < NEWS) return "REJECTED";
-  return state === "armed" ? "ACCEPTED" : "";
+  return clearanceText(flight, state) || (state === "armed" ? "ACCEPTED" : "");
+}
+
+const CLEARANCE: Record<ClearanceStatus, OrderWord> = {
+  sent: "SENT",
+  standby: "STANDBY",
+  validated: "VALIDATED",
+  unable: "UNABLE",
+  wilco: "WILCO",
+  flying: "CLEARED",
+  deviating: "DEVIATING",
+  over: "ENDED",
+};
+
+/** What air traffic control says; it is said while there is something to be flown, and what is over for a while. */
+function clearanceText({ clearance, t }: Moment, state: Guidance): Order {
+  if (clearance === null || state === "off") return "";
+  if (clearance.clearance === "over" && t - clearance.t_s > NEWS) return "";
+  const about = clearance.automated ? "AUTO" : (clearance.reason ?? "").replaceAll("_", " ");
+  const word = CLEARANCE[clearance.clearance];
+  return about === "" ? word : `${word} ${about.toUpperCase()}`;
 }
 
 /** Within so much of the slot, along and across the leader's route, own ship has joined [m]. */

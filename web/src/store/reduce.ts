@@ -26,6 +26,7 @@ export const NOTHING_KNOWN: Known = {
   engagement: null,
   control: null,
   assignment: null,
+  clearance: null,
   result: null,
   messages: [],
 };
@@ -60,6 +61,8 @@ function take(known: Known, document: Document, pair: PairCard): Known {
       const started = { ...pair, slot_distance_m, min_separation_m };
       return { ...known, started, assignment: document };
     }
+    case "clearance_news":
+      return { ...known, clearance: document };
     case "mode_changed":
       return { ...known, mode: document };
     case "promise_changed":
@@ -103,6 +106,8 @@ export function messageOf(document: Document): Message | null {
     case "control_changed":
     case "assignment_changed":
       return say("engagement", document.message);
+    case "clearance_news":
+      return say("clearance", document.message);
     case "plan_refused":
       return say("refused", document.message);
     case "mode_changed":

@@ -4,6 +4,7 @@ import type { Signal } from "@preact/signals";
 import type {
   Alert,
   AssignmentChanged,
+  ClearanceNews,
   ControlChanged,
   EngagementChanged,
   FanChanged,
@@ -38,6 +39,7 @@ export interface Message {
     | "leader"
     | "mode"
     | "engagement"
+    | "clearance"
     | "advisory"
     | "caution"
     | "warning"
@@ -85,6 +87,8 @@ export interface Known {
   readonly control: ControlChanged | null;
   /** What guidance is to do, as the crew last changed it: D and d_min are those of `started`, too. */
   readonly assignment: AssignmentChanged | null;
+  /** What air traffic control last said of the manoeuvre that was sent to it. */
+  readonly clearance: ClearanceNews | null;
   /** How it went, once it is over. */
   readonly result: LinkResult | null;
   /** Newest first. */

@@ -27,6 +27,7 @@ const PARTS: Record<Document["kind"], readonly string[]> = {
   command_given: ["command"],
   control_changed: ["ident", "autopilot", "director", "message"],
   assignment_changed: ["ident", "slot_distance_m", "min_separation_m", "max_bank_deg", "message"],
+  clearance_news: ["ident", "clearance", "level", "message"],
   plan_unavailable: ["ident", "answer"],
   plan_refused: ["ident", "message"],
   mode_changed: ["ident", "mode", "message"],

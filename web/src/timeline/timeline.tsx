@@ -143,6 +143,7 @@ const SIGNS: Record<Mark["kind"], { readonly word: string; readonly path: string
   leader: { word: "LEADER", path: "M0 1l4 8h-8z" },
   mode: { word: "MODE", path: "M-3 2h6v6h-6z" },
   engagement: { word: "CREW", path: "M0 2v7M-3 5h6" },
+  clearance: { word: "ATC", path: "M-4 2h8v6h-8zM-4 2l4 3 4-3" },
   advisory: { word: "ADVICE", path: "M0 2v5M0 8v1" },
   caution: { word: "CAUTION", path: "M0 1l4 8h-8zM0 4v3" },
   warning: { word: "WARNING", path: "M-4 1h8v8h-8z" },

@@ -1,9 +1,17 @@
 """A WebSocket of the service: bounds on what may come over it, so that none holds up the others."""
 
+from asyncio.transports import BaseTransport
+from functools import partial
+from math import inf
 from typing import Any
 
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.frames import Frame
+from websockets.http11 import Request
+
+from relguide.units import Second
+from relguide_server.doors.connection_shares import ConnectionShares
+from relguide_server.shares.clients import client_at
 
 A_SECOND = 256 * 1024
 """What a client may send, in bytes a second: three times what streams and scenes allow."""
@@ -13,6 +21,15 @@ A_FRAME = 256
 """What a frame counts beside its bytes, as each takes time, however small it is [bytes]."""
 A_SLICE = 1024
 """So much is read before what it held is counted [bytes]."""
+SHED = 1013
+"""Close code of a stream that makes room for another client's connection."""
+WHY_SHED = "This server is full, and you have the most of its connections: dial again in a moment."
+TO_HEAR: Second = 1.0
+"""How long it may take to be told so."""
+BRIEF: Second = 1.0
+"""A stream that its client leaves sooner counts as one that was not waited for."""
+KEEP = "relguide.keep"
+"""The extension of ASGI by which a route says that a stream is one of its flight's owner."""
 
 
 class Socket(WebSocketsSansIOProtocol):
@@ -22,11 +39,52 @@ class Socket(WebSocketsSansIOProtocol):
     after it has closed a socket the server reads on, for the answer: here it is bounded as well.
     """
 
-    def __init__(self, *arguments: Any, **options: Any) -> None:
-        """As uvicorn makes it."""
+    def __init__(self, *arguments: Any, shares: ConnectionShares, **options: Any) -> None:
+        """As uvicorn makes it.
+
+        Args:
+            arguments: of uvicorn.
+            shares: the places that there are.
+            options: of uvicorn.
+        """
         super().__init__(*arguments, **options)
+        self._shares = shares
+        self.whose = ""
+        self._began_at: Second = self.loop.time()
         self._left = float(AT_ONCE)
         self._counted_at = self.loop.time()
+
+    @property
+    def idle_since(self) -> Second | None:
+        """Never: a stream is only shed where its client has no idle connections."""
+        return inf
+
+    def connection_made(self, transport: BaseTransport) -> None:
+        """Begin with the handshake."""
+        super().connection_made(transport)
+        self.whose = client_at(self.client[0] if self.client else "")
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """The connection has ended."""
+        self._shares.leave(self)
+        if not self.close_sent and self.loop.time() - self._began_at < BRIEF:
+            self._shares.note_hang_up(self.client[0] if self.client else "")
+        super().connection_lost(exc)
+
+    def handle_connect(self, event: Request) -> None:
+        """The handshake is there: the app goes on."""
+        super().handle_connect(event)
+        if self.response.status_code == 101:
+            self.scope["extensions"][KEEP] = {"keep": partial(self._shares.keep, self)}
+
+    def shed(self) -> None:
+        """End it, to make room for another client's."""
+        if self.handshake_complete and not self.close_sent:
+            self.conn.send_close(SHED, WHY_SHED)
+            self.close_sent = True
+            self.transport.write(b"".join(self.conn.data_to_send()))
+        self.transport.close()
+        self.loop.call_later(TO_HEAR, self.transport.abort)
 
     def data_received(self, data: bytes) -> None:
         """Read on, bit by bit, unless too much has come."""

@@ -1,7 +1,7 @@
 """Token buckets: what is taken is missing, comes back, and is forgotten."""
 
 import pytest
-from relguide_server.jobs.token_bucket import KEPT, MOST, TokenBuckets
+from relguide_server.shares.token_buckets import KEPT, MOST, TokenBuckets
 
 
 class Clock:

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from relguide_server.jobs.fair_queue import FairQueue
+from relguide_server.shares.fair_queue import FairQueue
 
 
 def test_clients_take_turns() -> None:

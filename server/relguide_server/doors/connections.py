@@ -1,14 +1,19 @@
 """A connection to the service: bounds on what may come over it, how slowly, and on their number."""
 
 import asyncio
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
+from relguide.units import Second
+from relguide_server.doors.connection_shares import ConnectionShares
+from relguide_server.doors.sockets import Socket
+from relguide_server.http.access import OPEN
 from relguide_server.http.errors import problem
 from relguide_server.http.security_headers import SECURITY_HEADERS, add_security_headers
+from relguide_server.shares.clients import client_at
 
 HEAD_PATIENCE = 15.0
 """How long the head of a request may take to come [s]."""
@@ -17,62 +22,68 @@ LONGEST_HEAD = 64 * 1024
 TOO_LONG = f"The head of a request may have at most {LONGEST_HEAD:,} bytes."
 READ_PATIENCE = 30.0
 """How long a client may read nothing of an answer that waits for it [s]."""
-TOLD = 64
-"""So many connections beyond those that are served are told so."""
-TOO_MANY = "This server has {most} connections, the most it serves: try again in a moment."
 TWO_HOSTS = "A request has one Host, not more."
 NOTHING: Mapping[str, str] = {}
-TOO_MANY_OF_YOURS = "You have {most} connections already, the most of a client's: close some."
 
 
 class Connection(HttpToolsProtocol):
     """Uvicorn's connection, on which nothing is without end: heads, waits, and how many there are.
 
-    Half of the connections are for one client at most, so that none keeps others out. Those beyond
-    are told so (503), whatever they ask; those far beyond are closed unheard.
+    One that gets no place among those that are served is told so (503), whatever it asks; only
+    whether the service lives and is ready is answered even so.
     """
 
-    def __init__(
-        self, *arguments: Any, most: int, proxies: Callable[[str], bool], **options: Any
-    ) -> None:
+    def __init__(self, *arguments: Any, shares: ConnectionShares, **options: Any) -> None:
         """As uvicorn makes it.
 
         Args:
             arguments: of uvicorn.
-            most: connections served at once.
-            proxies: says of an address whether it speaks for many clients.
+            shares: the places that there are.
             options: of uvicorn.
         """
         super().__init__(*arguments, **options)
-        self._most, self._proxies = most, proxies
+        self._shares = shares
+        self.whose = ""
+        self._asked_at: Second = self.loop.time()
+        self._has_asked = False
         self._unread = 0
         self._refusal: ASGIApp | None = None
-        self.too_many = ""
-        """Why it is one too many; empty if it is not."""
+        self._too_many = ""
+        """Why it has no place; empty if it has one."""
         self._deaf: asyncio.TimerHandle | None = None
+
+    @property
+    def idle_since(self) -> Second | None:
+        """Since when nothing is asked on it, by the loop's clock; `None` while it is answered.
+
+        Whether the service lives is asked of many a service by those who only want to keep a
+        connection: that does not count. Nor does a request that is slow to come, or an answer
+        that is not read.
+        """
+        cycle = self.cycle
+        is_asked = cycle is not None and not cycle.response_complete and not cycle.more_body
+        if is_asked and self._deaf is None and not self._is_open():
+            return None
+        return self._asked_at
+
+    def _is_open(self) -> bool:
+        return self.scope is not None and self.scope.get("path") in OPEN
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Wait for a request."""
         super().connection_made(transport)
         self._late = self.loop.call_later(HEAD_PATIENCE, transport.close)
-        if len(self.connections) <= self._most // 2:
-            return
-        told = sum(bool(getattr(other, "too_many", "")) for other in self.connections)
-        if len(self.connections) - told > self._most:
-            self.too_many = TOO_MANY.format(most=self._most)
-        elif self.client is not None and not self._proxies(self.client[0]):
-            if self._count_served(self.client[0]) > self._most // 2:
-                self.too_many = TOO_MANY_OF_YOURS.format(most=self._most // 2)
-        if self.too_many and told >= TOLD:
-            transport.abort()
+        host = self.client[0] if self.client else ""
+        self.whose = client_at(host)
+        self._too_many = self._shares.enter(self, host)
 
-    def _count_served(self, host: str) -> int:
-        """How many connections from an address are served."""
-        return sum(
-            (getattr(other, "client", None) or ("",))[0] == host
-            and not getattr(other, "too_many", "")
-            for other in self.connections
-        )
+    def shed(self) -> None:
+        """End it, to make room for another client's."""
+        self._has_asked = True  # it did not leave by itself
+        if self._deaf is None:
+            self.transport.close()
+        else:
+            self.transport.abort()
 
     def on_message_begin(self) -> None:
         """A request begins."""
@@ -95,13 +106,15 @@ class Connection(HttpToolsProtocol):
         """The head is there."""
         self._late.cancel()
         self._unread = 0
-        if self.too_many:
-            self._refusal = refuse(503, self.too_many, {"Retry-After": "1"})
+        if self._too_many and self.url.partition(b"?")[0].decode("latin-1") not in OPEN:
+            self._refusal = refuse(503, self._too_many, {"Retry-After": "1"})
         elif [name for name, _ in self.headers].count(b"host") > 1:
             self._refusal = refuse(400, TWO_HOSTS)
         if self._refusal is not None:
             self.app = self._refusal
         super().on_headers_complete()
+        if self._too_many and self.cycle is not None:
+            self.cycle.keep_alive = False
 
     def _should_upgrade(self) -> bool:
         return self._refusal is None and super()._should_upgrade()
@@ -116,9 +129,26 @@ class Connection(HttpToolsProtocol):
         self._unread = 0
         super().on_message_complete()
 
+    def on_response_complete(self) -> None:
+        """A request has been answered."""
+        self._has_asked = True
+        if not self._is_open():
+            self._asked_at = self.loop.time()
+        super().on_response_complete()
+
+    def handle_websocket_upgrade(self) -> None:
+        """A stream goes on from here."""
+        super().handle_websocket_upgrade()
+        stream = self.transport.get_protocol()
+        assert isinstance(stream, Socket)
+        self._shares.hand_over(self, stream)
+
     def connection_lost(self, exc: Exception | None) -> None:
         """The connection has ended."""
         self._late.cancel()
+        self._shares.leave(self)
+        if not self._has_asked or not (self.cycle is None or self.cycle.response_complete):
+            self._shares.note_hang_up(self.client[0] if self.client else "")
         super().connection_lost(exc)
         self._stop_waiting()
 

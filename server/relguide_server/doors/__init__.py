@@ -1,0 +1,1 @@
+"""The doors of the service: connections and sockets, a share of them for each client."""

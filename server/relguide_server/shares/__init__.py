@@ -1,0 +1,1 @@
+"""What clients share, and how much of it one may take."""
