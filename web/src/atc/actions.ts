@@ -4,7 +4,7 @@ import { batch } from "@preact/signals";
 import { saveFile } from "../save";
 import { confirm } from "./answering";
 import { startDemo } from "./demo";
-import { showAll } from "./map/view";
+import { keepInSight, showAll } from "./map/view";
 import { MOST_BYTES, readRecording, writeRecording } from "./recording";
 import { choose, type Station } from "./station";
 import { openStream, type Stream } from "./stream";
@@ -20,19 +20,10 @@ export interface Actions {
 export function createActions(station: Station, address: string, protocol: string): Actions {
   const { store, view, link, notice, file, busy } = station;
   let stream: Stream | null = null;
-  /** Whether the map has shown all of the sky once. */
-  let isShown = false;
-
-  const showOnce = () => {
-    if (isShown || store.sky.value.aircraft.length === 0) return;
-    isShown = true;
-    showAll(view, store.sky.value.aircraft);
-  };
-
   const begin = () => {
     stream?.close();
     stream = null;
-    isShown = false;
+    view.isHeld.value = false;
     batch(() => {
       store.clear();
       choose(station, null);
@@ -56,7 +47,7 @@ export function createActions(station: Station, address: string, protocol: strin
           store.receive(documents);
           confirm(station);
         });
-        showOnce();
+        keepInSight(view, store.sky.value.aircraft);
       },
     });
   };
@@ -84,7 +75,7 @@ export function createActions(station: Station, address: string, protocol: strin
         file.value = found.name;
         store.receive(read.documents);
       });
-      showOnce();
+      showAll(view, store.sky.value.aircraft);
     },
     demo() {
       busy.value = "Starting five flights …";

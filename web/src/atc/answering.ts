@@ -1,8 +1,14 @@
 /** What may be answered, and answering: the stream confirms, a refusal is a sentence. */
 
 import { formatMiles } from "../units";
-import type { AlternativeManoeuvre, ClearanceCard, ClearanceState, ReasonCode } from "../wire";
-import { answerClearance, type ClearanceAnswer, tryClearance } from "./rest";
+import type {
+  AlternativeManoeuvre,
+  ClearanceAnswer,
+  ClearanceCard,
+  ClearanceState,
+  ReasonCode,
+} from "../wire";
+import { answerClearance, tryClearance } from "./rest";
 import type { Station } from "./station";
 import { timeText } from "./words";
 

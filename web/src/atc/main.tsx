@@ -9,6 +9,7 @@ import "./atc.css";
 import "./map/map.css";
 import { render } from "preact";
 import { socketAddress } from "../stream";
+import { PROTOCOL } from "../wire";
 import { createActions } from "./actions";
 import { Announcer, followChanges } from "./announcer";
 import { isTaken, keyAct } from "./keys";
@@ -16,9 +17,6 @@ import { Page } from "./page";
 import { keepChoices } from "./preferences";
 import { soundDeviations } from "./sounds";
 import { createStation } from "./station";
-
-/** The protocol of the controllers' stream: another one is refused with a sentence. */
-const PROTOCOL = "relguide-atc-1";
 
 const station = createStation();
 const address = socketAddress("api/v1/atc/stream", location.href);

@@ -73,8 +73,9 @@ function Row(props: { station: Station; card: ClearanceCard; isChosen: boolean }
       <span class={`left${isUrgent ? " urgent" : ""}`}>
         {left === null || isOver(card) ? "–" : formatClock(left)}
       </span>
-      <b class="aircraft">{card.aircraft}</b>
-      <span class="behind">{behindText(card)}</span>
+      <span class="behind">
+        <b>{card.aircraft}</b> {behindText(card)}
+      </span>
       <span class={`state ${card.state}`}>{STATES[card.state].word}</span>
       <span class={`verdict ${verdict === undefined ? "" : VERDICTS[verdict].tone}`}>
         {verdict === undefined ? "…" : VERDICTS[verdict].word}

@@ -2,10 +2,15 @@
 
 import { batch, computed, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import type { Point } from "../nd/view";
-import type { AlternativeManoeuvre, ClearanceCard, ClearanceState } from "../wire";
+import type {
+  AlternativeManoeuvre,
+  ClearanceAnswer,
+  ClearanceCard,
+  ClearanceState,
+  ClearanceTrial,
+} from "../wire";
 import { type Alert, alertsOf, loudOf, type Silenced } from "./alerts";
-import { createView, type MapView, toPoint } from "./map/view";
-import type { ClearanceAnswer, ClearanceTrial } from "./rest";
+import { createView, type MapView, showAll, toPoint } from "./map/view";
 import { type AtcStore, createAtcStore } from "./store";
 import type { Link } from "./stream";
 import { isOver, requestsOf } from "./urgency";
@@ -130,6 +135,7 @@ export function openTab(station: Station, id: string): void {
     station.store.instant.value = null;
     station.picked.value = [];
     choose(station, null);
+    showAll(station.view, station.store.sky.value.aircraft);
   });
 }
 

@@ -1,6 +1,6 @@
 /** The controllers' stream: numbered frames, resumed after the last one when it breaks. */
 
-import type { AtcDocument } from "../wire";
+import type { AtcFrame } from "../wire";
 
 /** All codes for closing for good begin here. */
 const FOR_GOOD = 4400;
@@ -9,16 +9,6 @@ const FIRST_WAIT = 500;
 const LONGEST_WAIT = 8000;
 
 export type Link = "connecting" | "open" | "closed";
-
-/** What happened since the frame before, in order. */
-export interface AtcFrame {
-  readonly kind: "atc";
-  /** Of its last document. */
-  readonly number: number;
-  /** Whether it is all that stands now, in place of what is known here. */
-  readonly snapshot: boolean;
-  readonly documents: readonly AtcDocument[];
-}
 
 export interface StreamEvents {
   received(frame: AtcFrame): void;

@@ -40,13 +40,13 @@ export function Timeline({ station }: { station: Station }) {
           type="range"
           aria-label="Instant that is shown"
           aria-valuetext={timeText(id, shown)}
-          min={from}
-          max={to}
+          min={0}
+          max={Math.ceil(to - from)}
           step={1}
-          value={shown}
+          value={Math.ceil(shown - from)}
           disabled={to <= from}
           onInput={({ currentTarget }) => {
-            store.instant.value = Number(currentTarget.value);
+            store.instant.value = from + Number(currentTarget.value);
           }}
         />
       </div>

@@ -77,7 +77,7 @@ export function validation(change: Partial<ValidationCard> = {}): ValidationCard
 }
 
 export function clearance(id: string, change: Partial<ClearanceCard> = {}): ClearanceCard {
-  const state = change.state ?? "requested";
+  const state = change.state ?? "validating";
   return {
     id,
     sky: "",

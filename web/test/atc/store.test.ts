@@ -59,7 +59,7 @@ describe("the fold", () => {
   it("leaves what it was given as it was", () => {
     const before = fold(emptySky(""), changed(clearance("1")));
     fold(before, changed(clearance("1", { state: "accepted" })));
-    expect(before.clearances.get("1")?.state).toBe("requested");
+    expect(before.clearances.get("1")?.state).toBe("validating");
   });
 
   it("passes over what is about a clearance that it does not know", () => {
@@ -123,7 +123,7 @@ describe("the store", () => {
     store.instant.value = NOW + 1;
     expect(store.sky.value.clearances.get("1")?.validation[0]?.verdict).toBe("acceptable");
     expect(store.span.value).toEqual([NOW, NOW + 3]);
-    expect(store.marks.value.map(({ what }) => what)).toEqual(["DLH1 requested", "DLH1 deviates"]);
+    expect(store.marks.value.map(({ what }) => what)).toEqual(["DLH1 validating", "DLH1 deviates"]);
   });
 
   it("keeps the places of the last two minutes for dots", () => {

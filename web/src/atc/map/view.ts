@@ -1,7 +1,7 @@
 /** The map's projection: north up, any place in the middle, any scale. */
 
 import { type Signal, signal } from "@preact/signals";
-import type { Box, Point } from "../../nd/view";
+import { type Box, type Point, within } from "../../nd/view";
 import { NM } from "../../units";
 import type { Place } from "../tracks";
 
@@ -12,6 +12,8 @@ export interface MapView {
   readonly scale: Signal<number>;
   /** Of the glass [px]. */
   readonly size: Signal<{ readonly width: number; readonly height: number }>;
+  /** Whether it was moved by hand: until then, all aircraft are kept in sight. */
+  readonly isHeld: Signal<boolean>;
 }
 
 /** From the middle to the nearer edge, at least and at most [m]. */
@@ -25,6 +27,7 @@ export function createView(): MapView {
     centre: signal({ x_m: 0, y_m: 0 }),
     scale: signal(300 / (60 * NM)),
     size: signal({ width: 800, height: 600 }),
+    isHeld: signal(false),
   };
 }
 
@@ -45,13 +48,19 @@ export function toPlace({ centre, scale, size }: MapView, { x, y }: Point): Plac
 }
 
 /** Moves the ground by so much [px]. */
-export function pan({ centre, scale }: MapView, x: number, y: number): void {
+export function pan(view: MapView, x: number, y: number): void {
+  view.isHeld.value = true;
+  move(view, x, y);
+}
+
+function move({ centre, scale }: MapView, x: number, y: number): void {
   const { x_m, y_m } = centre.value;
   centre.value = { x_m: x_m - x / scale.value, y_m: y_m + y / scale.value };
 }
 
 /** Makes all so many times as large; what is at a point, the middle if none is given, stays there. */
 export function zoom(view: MapView, factor: number, at?: Point): void {
+  view.isHeld.value = true;
   const { width, height } = view.size.value;
   const point = at ?? { x: width / 2, y: height / 2 };
   const before = toPlace(view, point);
@@ -59,7 +68,7 @@ export function zoom(view: MapView, factor: number, at?: Point): void {
   const wanted = view.scale.value * factor;
   view.scale.value = Math.min(half / NEAREST, Math.max(half / FURTHEST, wanted));
   const after = toPoint(view, before);
-  pan(view, point.x - after.x, point.y - after.y);
+  move(view, point.x - after.x, point.y - after.y);
 }
 
 /** Shows all these places. */
@@ -76,6 +85,14 @@ export function showAll(view: MapView, places: readonly Place[]): void {
   );
   view.scale.value = 1;
   zoom(view, fits);
+  view.isHeld.value = false;
+}
+
+/** Shows all these places, if some are out of sight and the map was not moved by hand. */
+export function keepInSight(view: MapView, places: readonly Place[]): void {
+  const glass = glassOf(view);
+  if (!view.isHeld.value && places.some((each) => !within(glass, toPoint(view, each))))
+    showAll(view, places);
 }
 
 /** A line through places, for an SVG path. */
