@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import count
 from statistics import median
+from time import monotonic
 
 import numpy as np
 from rich.console import Console
@@ -79,10 +80,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--deviations", type=positive, default=1_000)
     parser.add_argument("--processes", type=positive, default=1)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--minutes", type=positive, default=600, help="no flight begins later")
     parser.add_argument("--keep", action="store_true", help="write the table and the page")
     asked = parser.parse_args(arguments)
     console = Console(stderr=True, soft_wrap=True, highlight=False, markup=False)
-    outcomes = list(measure_all(asked.flights, asked.deviations, asked.processes, asked.seed))
+    until = monotonic() + 60.0 * asked.minutes
+    measured = measure_all(asked.flights, asked.deviations, asked.processes, asked.seed, until)
+    outcomes = list(measured)
     cells = table(outcomes)
     shown = markdown(HEADINGS, cells)
     if asked.keep:
@@ -95,7 +99,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 1 if failed else 0
 
 
-def measure_all(flights: int, deviations: int, processes: int, seed: int) -> Iterator[Outcome]:
+def measure_all(
+    flights: int, deviations: int, processes: int, seed: int, until: Second
+) -> Iterator[Outcome]:
     """So many flights, the first of them with deviations put in until there are enough."""
     flown, put_in = 0, 0
     with ProcessPoolExecutor(processes) as pool:
@@ -106,7 +112,7 @@ def measure_all(flights: int, deviations: int, processes: int, seed: int) -> Ite
                 calm, deviating = found[:2], found[2:][: deviations - put_in]
                 yield from (*calm, *deviating)
                 flown, put_in = flown + 1, put_in + len(deviating)
-                if flown == flights:
+                if flown == flights or monotonic() >= until:
                     return
 
 

@@ -262,6 +262,10 @@ def _spare_of_airspace(
 ) -> float:
     """−1 if it may be inside while it is closed and at its levels, else infinite."""
     corners = np.column_stack((airspace.x, airspace.y))
+    middle = corners.mean(axis=0)
+    reach = np.max(np.hypot(*(corners - middle).T)) + 2_500.0
+    x, y = own.at(t)
+    t = t[np.hypot(x - middle[0], y - middle[1]) < reach]
     for heights in _profiles(own.heights, t, rng):
         closed = (t + NOW >= airspace.since) & (t + NOW < airspace.until)
         closed &= (heights >= airspace.low) & (heights < airspace.high)

@@ -23,7 +23,7 @@ from packaging.utils import canonicalize_name
 from relguide_server.app import create_app
 from relguide_server.http import health
 from relguide_server.jobs.worker_pool import PULSE
-from relguide_server.settings import ServiceSettings
+from relguide_server.settings import ServiceSettings, read_peers
 
 from tests.server.serving import ideal_app, ideal_catalogue, serve
 from tests.server.test_service_life import wait_until
@@ -32,6 +32,7 @@ from tools.container.dockerfile import ROOT, copied, steps
 
 LOCK = (ROOT / "requirements.lock").read_text()
 COMPOSE = composition()
+SERVED = ("flights-a", "flights-b", "planner")
 TOKEN = "v" * 16
 
 
@@ -210,19 +211,22 @@ def test_the_base_may_be_given_to_every_stage() -> None:
     default = dict(given)["ARG"].removeprefix("BASE=")
     assert given[0] == ("ARG", f"BASE={default}")
     assert all(what.startswith("${BASE}") for name, what in given if name == "FROM")
-    for name in ("flights", "planner"):
+    for name in SERVED:
         assert COMPOSE["services"][name]["build"]["args"]["BASE"] == default
 
 
 def test_compose_names_settings_that_exist_and_writes_nowhere() -> None:
     services = COMPOSE["services"]
-    assert set(services) == {"database", "flights", "planner", "proxy"}
+    assert set(services) == {"database", *SERVED, "proxy"}
     assert services["planner"]["deploy"]["replicas"] == 2
     known = {f"RELGUIDE_{name.upper()}" for name in ServiceSettings.model_fields}
-    for name in ("flights", "planner"):
+    for name in SERVED:
         assert services[name]["read_only"] is True
+        assert services[name]["mem_limit"]
         assert set(services[name]["environment"]) <= known
+    for letter in "ab":
+        given = services[f"flights-{letter}"]["environment"]
+        assert given["RELGUIDE_PROCESS"] == letter
+        assert read_peers(given["RELGUIDE_PEERS"])[letter] == f"http://flights-{letter}:8000"
     proxy = COMPOSE["configs"]["proxy"]["content"]
-    for upstream in re.findall(r"server (\w+):8000;", proxy):
-        assert upstream in services
     assert "proxy_set_header Host $http_host;" in proxy

@@ -32,7 +32,7 @@ def entries(
     track: Track, airspaces: tuple[Airspace, ...], *, begin: Second, end: Second, bound: Metre,
     spare: Metre,
 ) -> tuple[Entry, ...]:  # fmt: skip
-    """The airspaces that a track comes into, or nearer than a bound and its error; soonest first.
+    """The airspaces that a track comes into, or as near as a bound and its error; soonest first.
 
     Args:
         track: over the ground.
@@ -45,7 +45,7 @@ def entries(
     found = []
     for airspace in airspaces:
         entry = _nearest(track, airspace, begin, end, spare)
-        if entry is not None and entry.least < bound + track.error:
+        if entry is not None and entry.least <= bound + track.error:
             found.append(entry)
     return tuple(sorted(found, key=lambda entry: entry.at))
 

@@ -6,12 +6,13 @@ all cautions the monitor is silent, and what validation has added to its path ho
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from math import hypot
 
 import numpy as np
 
 from relguide.atc.documents import Deviation, DeviationKind
 from relguide.atc.measured import in_level, on_path, to_leader, turning
-from relguide.atc.off_path import heights, off_path, places
+from relguide.atc.off_path import heights, off_path
 from relguide.atc.picture import Seen
 from relguide.atc.request import Manoeuvre
 from relguide.atc.settings import AtcSettings
@@ -123,15 +124,18 @@ def still_covers(cleared: Manoeuvre, new: Track, settings: AtcSettings = DEFAULT
     path = cleared.path
     begin = max(new.begin, path.begin)
     knots = np.concatenate((np.arange(begin, path.end, 1.0), new.t, path.t))
-    t = np.unique(knots[(knots >= begin) & (knots <= path.end)])
-    if not len(t):
-        return True
-    off = off_path(path, t, *places(new, t))
-    slowest = float(np.min(np.hypot(np.diff(path.x), np.diff(path.y)) / np.diff(path.t)))
+    times = np.unique(knots[(knots >= begin) & (knots <= path.end)]).tolist()
+    return all(_covers(path, new, t, settings) for t in times)
+
+
+def _covers(path: Track, new: Track, t: Second, settings: AtcSettings) -> bool:
+    """Whether a new track is within all cautions of a path at a time, its error included."""
+    across, along = off_path(path, t, *new.place(t))
+    speed = max(hypot(*path.velocity(t + along)), 1.0)
     (low, high), (new_low, new_high) = heights(path, t), heights(new, t)
-    return bool(
-        np.all(np.abs(off.across) + new.error <= settings.across.caution)
-        and np.all(np.abs(off.along) + new.error / max(slowest, 1.0) <= settings.along.caution)
-        and np.all(new_low >= low - settings.level.caution)
-        and np.all(new_high <= high + settings.level.caution)
+    return (
+        abs(across) + new.error <= settings.across.caution
+        and abs(along) + new.error / speed <= settings.along.caution
+        and new_low >= low - settings.level.caution
+        and new_high <= high + settings.level.caution
     )

@@ -51,9 +51,9 @@ class Fans(NamedTuple):
         corner = np.hypot(ahead - reach * c, aside - reach * s)
         before = reach * c - ahead
         beyond = np.hypot(dx, dy) - reach
-        in_sector = aside * c <= ahead * s
-        found = np.where(in_sector, np.maximum(beyond, before), corner)
-        return np.where(aside <= reach * s, np.where(before > 0.0, before, found), found)
+        ahead_of_chord = np.where(before > 0.0, before, np.maximum(beyond, before))
+        beside_chord = np.where(aside * c <= ahead * s, beyond, corner)
+        return np.where(aside <= reach * s, ahead_of_chord, beside_chord)
 
 
 def least_margin(

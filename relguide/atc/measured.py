@@ -5,8 +5,6 @@ from dataclasses import dataclass
 from math import cos, hypot, inf, sin
 from typing import Literal
 
-import numpy as np
-
 from relguide.atc.documents import DeviationKind, DeviationLevel
 from relguide.atc.off_path import heights, off_path
 from relguide.atc.picture import Seen
@@ -46,8 +44,7 @@ def on_path(seen: Seen, path: Track, settings: AtcSettings) -> Iterator[Measured
     """Beside the path, and before or behind its time; while the path lasts."""
     if not path.begin <= seen.t <= path.end:
         return
-    off = off_path(path, np.array([seen.t]), np.array([seen.x]), np.array([seen.y]))
-    across, along = float(off.across[0]), float(off.along[0])
+    across, along = off_path(path, seen.t, seen.x, seen.y)
     side = "right" if across > 0.0 else "left"
     yield Measured(
         subject="across",
@@ -118,7 +115,7 @@ def in_level(seen: Seen, path: Track, settings: AtcSettings) -> Iterator[Measure
     """Above or below what the path may be flown at; where both are known."""
     if seen.altitude is None:
         return
-    low, high = (float(bound[0]) for bound in heights(path, np.array([seen.t])))
+    low, high = heights(path, seen.t)
     if low == -inf or high == inf:
         return
     below, above = low - seen.altitude, seen.altitude - high

@@ -4,19 +4,20 @@ With q the nearest place of the track within `WINDOW`, flown at τ, and p the ai
 
     along = τ − t,    across² = max(|p − q|², |p − place(t)|² − (v along)²),
 
-where v is the track's fastest. On a straight both terms are one. Outside of a turn the second is
-larger, by some tens of metres at 5 s. So |p − place(t)| ≤ hypot(across, v along) always: what
-validation adds to a track holds whatever it does.
+where v is the track's fastest within `WINDOW`. On a straight both terms are one. Outside of a turn
+the second is larger, by some tens of metres at 5 s. So |p − place(t)| ≤ hypot(across, v along)
+always: what validation adds to a track holds whatever it does.
 """
 
+from itertools import pairwise
+from math import inf, isinf, sqrt
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from relguide.atc.track import Track
 from relguide.kernels.base.roots import FloatArray
-from relguide.units import Second
+from relguide.units import Metre, Second
 
 WINDOW: Second = 30.0
 """The nearest place is looked for so long before and behind [s]: twice the alert of `along`, and
@@ -24,68 +25,65 @@ less than it takes the steepest turn to come back near itself."""
 
 
 class OffPath(NamedTuple):
-    """How far places are from a track. shape (n,) each."""
+    """How far a place is from a track at a time."""
 
-    across: FloatArray
-    """Beside it, positive to its right [m]."""
-    along: FloatArray
-    """Before it, as flown too early [s]; negative behind it."""
+    across: Metre
+    """Beside it, positive to its right."""
+    along: Second
+    """Before it, as flown too early; negative behind it."""
 
 
-def off_path(track: Track, t: FloatArray, x: FloatArray, y: FloatArray) -> OffPath:
-    """How far places are from a track at their times.
+def off_path(track: Track, t: Second, x: Metre, y: Metre) -> OffPath:
+    """How far a place is from a track at a time.
 
     Args:
         track: where an aircraft is to be; before its first knot and past its last it is straight.
-        t: times [s]. shape (n,)
-        x: east [m]. shape (n,)
-        y: north [m]. shape (n,)
+        t: when [s].
+        x: east [m].
+        y: north [m].
     """
-    ends = np.array([min(track.begin, float(np.min(t))), max(track.end, float(np.max(t)))])
-    knots = np.concatenate(([ends[0] - WINDOW], track.t, [ends[1] + WINDOW]))
-    place_x, place_y = places(track, knots)
-    spans = np.diff(knots)
-    east, north = np.diff(place_x) / spans, np.diff(place_y) / spans
-    # the nearest place of each piece to each aircraft, within its window: (n, m)
-    first, last = knots[:-1], knots[1:]
-    since = np.maximum(first, t[:, None] - WINDOW)
-    until = np.minimum(last, t[:, None] + WINDOW)
-    behind_x, behind_y = x[:, None] - place_x[:-1], y[:, None] - place_y[:-1]
-    speeds = np.maximum(east * east + north * north, 1e-12)
-    when = first + (behind_x * east + behind_y * north) / speeds
-    when = np.minimum(np.maximum(when, since), until)
-    from_x, from_y = behind_x - east * (when - first), behind_y - north * (when - first)
-    square = np.where(since <= until, from_x * from_x + from_y * from_y, np.inf)
-    row, piece = np.arange(len(t)), np.argmin(square, axis=1)
-    along = when[row, piece] - t
-    then_x, then_y = places(track, t)
-    whole = (x - then_x) ** 2 + (y - then_y) ** 2 - (track.fastest * along) ** 2
-    across = np.sqrt(np.maximum(square[row, piece], whole))
-    right = from_x[row, piece] * north[piece] - from_y[row, piece] * east[piece]
-    return OffPath(np.where(right < 0.0, -across, across), along)
+    since, until = t - WINDOW, t + WINDOW
+    first = min(max(int(np.searchsorted(track.t, since)) - 1, 0), len(track.t) - 2)
+    last = max(min(int(np.searchsorted(track.t, until)), len(track.t) - 1), first + 1)
+    kept = slice(first, last + 1)
+    knots = list(
+        zip(track.t[kept].tolist(), track.x[kept].tolist(), track.y[kept].tolist(), strict=True)
+    )
+    fastest, least, when, right = 0.0, inf, t, 0.0
+    away = None
+    for k, ((begin, ax, ay), (end, bx, by)) in enumerate(pairwise(knots)):
+        final = k == len(knots) - 2
+        east, north = (bx - ax) / (end - begin), (by - ay) / (end - begin)
+        square = east * east + north * north
+        fastest = max(fastest, square)
+        dx, dy = x - ax, y - ay
+        nearest = begin + (dx * east + dy * north) / max(square, 1e-12)
+        nearest = max(nearest, since if k == 0 else begin)
+        nearest = min(nearest, until if final else end, until)
+        from_x, from_y = dx - east * (nearest - begin), dy - north * (nearest - begin)
+        apart = from_x * from_x + from_y * from_y
+        if apart < least:
+            least, when, right = apart, nearest, from_x * north - from_y * east
+        if away is None and (t <= end or final):
+            away = (dx - east * (t - begin)) ** 2 + (dy - north * (t - begin)) ** 2
+    assert away is not None
+    across = sqrt(max(least, away - fastest * (when - t) ** 2))
+    return OffPath(-across if right < 0.0 else across, when - t)
 
 
-def places(track: Track, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """As `Track.place`, at many times [m]. shape (n,) each."""
-    k = np.clip(np.searchsorted(track.t, t) - 1, 0, len(track.t) - 2)
-    share = (t - track.t[k]) / (track.t[k + 1] - track.t[k])
-    x = track.x[k] + share * (track.x[k + 1] - track.x[k])
-    y = track.y[k] + share * (track.y[k + 1] - track.y[k])
-    return x, y
+def heights(track: Track, t: Second) -> tuple[Metre, Metre]:
+    """Bounds on the altitude at a time, beyond the ends those of the ends [m].
+
+    Beside a knot where a bound is not known it is infinite.
+    """
+    k = min(max(int(np.searchsorted(track.t, t)) - 1, 0), len(track.t) - 2)
+    begin, end = track.t[k : k + 2].tolist()
+    share = min(max((t - begin) / (end - begin), 0.0), 1.0)
+    return _between(track.low[k : k + 2], share), _between(track.high[k : k + 2], share)
 
 
-def heights(track: Track, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Bounds on the altitude at many times; beyond the ends those of the ends [m]. shape (n,)."""
-    k = np.clip(np.searchsorted(track.t, t) - 1, 0, len(track.t) - 2)
-    share = np.clip((t - track.t[k]) / (track.t[k + 1] - track.t[k]), 0.0, 1.0)
-    return _between(track.low, k, share, -np.inf), _between(track.high, k, share, np.inf)
-
-
-def _between(
-    bound: FloatArray, k: NDArray[np.intp], share: FloatArray, unknown: float
-) -> FloatArray:
-    """Unknown beside a knot where it is not known."""
-    known = np.isfinite(bound)
-    level = np.where(known, bound, 0.0)
-    between = level[k] + share * (level[k + 1] - level[k])
-    return np.where(known[k] & known[k + 1], between, unknown)
+def _between(bounds: FloatArray, share: float) -> Metre:
+    before, after = bounds.tolist()
+    if isinf(before) or isinf(after):
+        return float(before if isinf(before) else after)
+    return float(before + share * (after - before))

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from relguide.atc.off_path import off_path, places
+from relguide.atc.off_path import off_path
 from relguide.atc.track import Track
 from relguide.units import Metre, Second
 
@@ -35,12 +35,11 @@ def behind_leader(
         expected: about how long the leader takes for what is between them, to within
             `off_path.WINDOW` [s].
     """
-    times = np.array([t, t - expected])
-    x, y = np.array([leader, own]).T
-    passes, passed = (times + off_path(path, times, x, y).along).tolist()
+    passes = t + off_path(path, t, *leader).along
+    passed = t - expected + off_path(path, t - expected, *own).along
     first, last = min(passes, passed), max(passes, passed)
-    between = path.t[(path.t > first) & (path.t < last)]
-    way = places(path, np.concatenate(([first], between, [last])))
-    length = float(np.sum(np.hypot(*np.diff(way))))
+    between = path.t[(path.t > first) & (path.t < last)].tolist()
+    way = np.array([path.place(when) for when in (first, *between, last)])
+    length = float(np.sum(np.hypot(*np.diff(way, axis=0).T)))
     time = passes - passed
     return Behind(length if time >= 0.0 else -length, time)

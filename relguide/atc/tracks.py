@@ -290,15 +290,17 @@ def _at_heights(
         low, high = heights.bounds(0.0)
         level = np.ones(len(t))
         return Track(t=t, x=x, y=y, low=level * low, high=level * high, error=error)
-    cuts = np.concatenate((knots - _JUMP, knots, knots + _JUMP))
-    times = np.union1d(t, cuts[(cuts > t[0]) & (cuts < t[-1])])
-    bounds = np.array([_widest(heights, time - start) for time in times.tolist()])
+    about = [knots + k * _JUMP for k in (-2, -1, 0, 1, 2)]
+    cuts = np.concatenate(([t[0]], *about, [t[-1]]))
+    cuts = np.unique(cuts[(cuts >= t[0]) & (cuts <= t[-1])])
+    times = np.union1d(t, cuts)
+    bounds = np.array([_widest(heights, cut - start) for cut in cuts.tolist()])
     return Track(
         t=times,
         x=np.interp(times, t, x),
         y=np.interp(times, t, y),
-        low=bounds[:, 0],
-        high=bounds[:, 1],
+        low=np.interp(times, cuts, bounds[:, 0]),
+        high=np.interp(times, cuts, bounds[:, 1]),
         error=error,
     )
 

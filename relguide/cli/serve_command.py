@@ -6,7 +6,7 @@ from importlib import import_module
 from textwrap import fill, indent
 from typing import Any
 
-from relguide.cli.output import DONE, say, write
+from relguide.cli.output import DONE, FAILED, say, write
 from relguide.planning.extras import need
 
 PURPOSE = "start the service and the cockpit"
@@ -23,6 +23,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of `relguide serve`: an address, and all settings of the service."""
     parser.add_argument("--host", default="127.0.0.1", help="default: %(default)s")
     parser.add_argument("--port", type=_port, default=8000, help="default: %(default)s")
+    parser.add_argument(
+        "--check", action="store_true", help="say what a start would do to records, and end"
+    )
     need(*NEEDED)
     options = _server("settings").options()
     settings = parser.add_argument_group(
@@ -58,6 +61,8 @@ def run(chosen: argparse.Namespace) -> int:
             probe.bind((host, port))
         except OSError as error:
             raise OSError(error.errno, error.strerror, f"{host}, port {port}") from None
+    if chosen.check:
+        return _check(settings)
     app = _server("app").app_of(settings, exposed=not _is_loopback(host))
     shown = f"[{host}]" if ":" in host else host
     write(f"relguide is on http://{shown}:{port}{settings.root_path} (Ctrl-C stops it)\n")
@@ -65,6 +70,20 @@ def run(chosen: argparse.Namespace) -> int:
     if warning:
         say(warning)
     _server("serving").serve(app, host=host, port=port)
+    return DONE
+
+
+def _check(settings: Any) -> int:
+    """Say what a start would do, once settings and address are known to be usable."""
+    records = _server("records.service")
+    try:
+        found = records.records_outlook(
+            records=settings.records, database_url=settings.database_url, data=settings.data
+        )
+    except _server("records.entries").Unavailable as error:
+        say(f"It starts, and cannot record: {error}")
+        return FAILED
+    write(f"It can start. {found}\n")
     return DONE
 
 

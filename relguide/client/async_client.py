@@ -125,9 +125,15 @@ class AsyncClient:
         call = calls.fly(what, rate=rate, paused=paused, seed=seed, engagement=engagement)
         return AsyncFlight(self, (await self.ask(call)).id)
 
-    async def records(self, **sought: str | int) -> list[dict[str, Any]]:
+    async def records(self, **sought: str | int) -> AsyncIterator[dict[str, Any]]:
         """As `Client.records`."""
-        return await self.ask(calls.records(**sought))
+        cursor = ""
+        while True:
+            some, cursor = await self.ask(calls.some_records(cursor, **sought))
+            for record in some:
+                yield record
+            if not cursor:
+                return
 
     async def recorded(self, flight_id: str) -> AsyncIterator[Document]:
         """As `Client.recorded`."""

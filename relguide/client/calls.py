@@ -238,13 +238,13 @@ def end(flight_id: str) -> Call[None]:
     return Call(method="DELETE", path=f"api/v1/flights/{flight_id}", read=_read_nothing)
 
 
-def records(**sought: str | int) -> Call[list[dict[str, Any]]]:
-    """Flights on record."""
+def some_records(cursor: str, **sought: str | int) -> Call[tuple[list[dict[str, Any]], str]]:
+    """Flights on record from a cursor on, and the next cursor; both empty at an end."""
     return Call(
         method="GET",
         path="api/v1/records/flights",
-        params=sought,
-        read=lambda content: list(orjson.loads(content)["flights"]),
+        params={**sought, "cursor": cursor} if cursor else sought,
+        read=_read_records,
     )
 
 
@@ -310,6 +310,11 @@ def _read_figures(content: bytes) -> list[SimulationAnswer]:
         SimulationAnswer.model_validate_json(orjson.dumps(figures), extra="ignore")
         for figures in orjson.loads(content)
     ]
+
+
+def _read_records(content: bytes) -> tuple[list[dict[str, Any]], str]:
+    answer = orjson.loads(content)
+    return list(answer["flights"]), answer["next"] or ""
 
 
 def _read_nothing(content: bytes) -> None:

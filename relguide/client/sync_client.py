@@ -166,9 +166,18 @@ class Client:
         call = calls.fly(what, rate=rate, paused=paused, seed=seed, engagement=engagement)
         return Flight(self, self.ask(call).id)
 
-    def records(self, **sought: str | int) -> list[dict[str, Any]]:
-        """Flights on record, the newest first; `sought` as `GET /records/flights` takes it."""
-        return self.ask(calls.records(**sought))
+    def records(self, **sought: str | int) -> Iterator[dict[str, Any]]:
+        """All flights on record, the newest first.
+
+        Args:
+            sought: as `GET /records/flights` takes it; of `limit` so many are asked for at a time.
+        """
+        cursor = ""
+        while True:
+            some, cursor = self.ask(calls.some_records(cursor, **sought))
+            yield from some
+            if not cursor:
+                return
 
     def recorded(self, flight_id: str) -> Iterator[Document]:
         """The documents of a flight on record, in their order."""

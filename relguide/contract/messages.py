@@ -43,7 +43,7 @@ from relguide.contract.pilot_bodies import ByHand
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.aircraft_documents import ReferenceCard
-from relguide.flying.documents import Document, Engagement, Mode
+from relguide.flying.documents import Document, EndReason, Engagement, Mode
 from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     FlownCard,
@@ -72,6 +72,7 @@ _GEODETIC = Field(
     description="WGS84; there if the situation came with latitudes.",
     json_schema_extra=_no_default,
 )
+_OF_SNAPSHOTS = Field(default="", json_schema_extra=_no_default)
 _MODELS: dict[type[Any], type[BaseModel]] = {}
 _DATACLASSES: dict[type[BaseModel], type[Any]] = {}
 _PLACED: dict[type[Any], type[Any]] = {}
@@ -310,6 +311,11 @@ class Tick(Strict):
     ended: bool
     documents: list[DocumentModel]
     """Since the last tick, in order; of several samples only the newest."""
+    started_at: str = _OF_SNAPSHOTS
+    """When the flight began by the wall clock, RFC 3339, UTC; of a recording, when it was flown.
+    In a snapshot, as is `version`."""
+    version: str = _OF_SNAPSHOTS
+    """Of the software that flies it."""
 
 
 class PlannerComparison(Strict):
@@ -405,6 +411,10 @@ FlightRequest = Annotated[
 """A request for a new flight."""
 
 
+FlightOutcome = Literal["", "broken", "stopped", EndReason]
+"""Why a flight is over; empty while it flies."""
+
+
 class FlightStatus(Strict):
     """Where a flight stands."""
 
@@ -422,6 +432,11 @@ class FlightStatus(Strict):
     """Whether it waits for `play`."""
     ended: bool
     """Whether it is over."""
+    outcome: FlightOutcome
+    """Why: broken: by a mistake of the server; stopped: nothing follows, as at the end of a
+    recording that was cut short; the others as in `flight_ended`. Empty while it flies."""
+    started_at: str
+    """When it began by the wall clock, RFC 3339, UTC; of a recording, when it was flown."""
     mode: Mode
     """What guidance does now."""
     engagement: Engagement
@@ -446,4 +461,6 @@ class FlightList(Strict):
     """All flights."""
 
     flights: list[FlightStatus]
-    """In the order they were started."""
+    """In the order they were started; of several processes, one after the other."""
+    missing: list[str] = Field(default_factory=list)
+    """Letters of the processes that did not answer; left out if all did."""

@@ -5,11 +5,11 @@ written as degrees (`_deg`, `_degps`), headings and tracks in [0, 360). A traili
 Python name is dropped. The field that names a union's member (`kind`, `status`) comes first.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import Field, dataclass, fields, is_dataclass
 from enum import Enum
 from math import degrees, isfinite, radians
-from types import UnionType
+from types import MappingProxyType, UnionType
 from typing import (
     TYPE_CHECKING,
     Annotated,
@@ -165,6 +165,7 @@ def tick(
     ended: bool,
     documents: "Sequence[Document]",
     place: Place | None = None,
+    origin: Mapping[str, str] = MappingProxyType({}),
 ) -> bytes:
     """One frame of the stream: what happened since the last one, in order, as JSON text.
 
@@ -176,6 +177,7 @@ def tick(
         ended: whether it is over.
         documents: since the last tick.
         place: x, y [m] → latitude, longitude [°], which every point then has as well.
+        origin: when the flight began and what flies it, for a frame that begins with that.
     """
     written = [to_wire(document) for document in documents]
     if place is not None:
@@ -189,6 +191,7 @@ def tick(
             "paused": paused,
             "ended": ended,
             "documents": written,
+            **origin,
         }
     )
 

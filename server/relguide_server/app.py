@@ -26,6 +26,7 @@ from relguide_server.atc.watching import Watching
 from relguide_server.flights import record_routes, routes, scene_relay, stream_docs
 from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
 from relguide_server.flights.live_fleet import LiveFleet
+from relguide_server.flights.peers import Peers
 from relguide_server.http import logs, pages, problem_docs
 from relguide_server.http.access import Access, read_tokens
 from relguide_server.http.bodies import Bodies, json_answer
@@ -145,6 +146,7 @@ def create_app(
         description=DESCRIPTION,
         lifespan=lifespan,
         generate_unique_id_function=name_of,
+        openapi_url=None,  # `describe` shows it
         docs_url=None,
         redoc_url=None,
         telemetry=NO_TELEMETRY,
@@ -157,6 +159,7 @@ def create_app(
     app.state.settings, app.state.catalogue = settings, catalogue
     app.state.records, app.state.recordings = records, KeptRecordings()
     app.state.reports, app.state.desk = reports, desk
+    app.state.peers = Peers(settings.peers, process=settings.process)
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     app.router.routes[:0] = plans.router.routes  # most requests are for these
     for part in (

@@ -35,6 +35,14 @@ OWN_PATHS = ("api", "asyncapi.json", "assets", "docs", "healthz", "metrics", "op
 PATH = re.compile(r"(/[\w.~-]+)*", re.ASCII)
 """A path on a host, without a slash at its end."""
 
+PEER = re.compile(r"([a-z])=(https?://[^/,\s?#@]+)", re.ASCII)
+"""A process by its letter, and where it is."""
+
+
+def read_peers(text: str) -> dict[str, str]:
+    """The addresses of processes by their letters, from the setting."""
+    return dict(PEER.findall(text))
+
 
 @dataclass(frozen=True, slots=True)
 class Unit:
@@ -84,6 +92,12 @@ class ServiceSettings(BaseSettings):
     """Connections that are served at once; others get 503."""
     max_flights: Annotated[Count, Unit("FLIGHTS")] = 16
     """Flights that may be in the air at once: each is a thread that shares one interpreter."""
+    process: Annotated[str, Unit("LETTER")] = ""
+    """Letter of this process, where several fly behind one address: ids of its flights begin with
+    it, as `a-3f2a9c0d71be`, and the proxy finds them by that."""
+    peers: Annotated[str, Unit("LETTER=URL,…")] = ""
+    """All processes that fly behind that address, e.g. `a=http://flights-a:8000`: each of them then
+    lists the flights of all."""
     keep_unseen: Annotated[Positive, Unit("SECONDS")] = 600.0
     """A flight that nobody has watched or asked for in this time is removed."""
     spare_after: Annotated[Positive, Unit("SECONDS")] = 15.0
@@ -142,6 +156,20 @@ class ServiceSettings(BaseSettings):
         if path and path.split("/")[1] in OWN_PATHS:
             raise ValueError("must not begin as a path of the service itself does")
         return path
+
+    @field_validator("process")
+    @classmethod
+    def _is_a_letter(cls, name: str) -> str:
+        if not re.fullmatch("[a-z]?", name):
+            raise ValueError("must be a letter from a to z")
+        return name
+
+    @field_validator("peers")
+    @classmethod
+    def _are_processes(cls, text: str) -> str:
+        if any(not PEER.fullmatch(part) for part in text.split(",") if text):
+            raise ValueError("must be letters and addresses such as a=http://flights-a:8000")
+        return text
 
     @field_validator("proxies")
     @classmethod

@@ -245,7 +245,8 @@ def test_the_same_without_waiting(url: str) -> None:
                     break
             assert (await flight.command("pause")).paused
             await flight.end()
-            assert (await client.records(limit=1))[0]["id"] == flight.id
+            newest = await anext(client.records(limit=1))
+            assert newest["id"] == flight.id
             assert [d async for d in client.recorded(flight.id)]
             assert (await client.plan_geojson(PLACED, max_ms=10_000))["status"] == "planned"
             assert [one.joined for one in await client.simulate(["fig_6b"])] == [True]

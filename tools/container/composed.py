@@ -89,7 +89,7 @@ def look_at_composition(stage: Stage, folder: Path) -> None:
                 services, add_host("database", NUMBERS["database"][0]), said["database"]
             )
         )
-        containers: dict[str, list[Container]] = {"flights": [], "planner": []}
+        containers: dict[str, list[Container]] = {"flights-a": [], "flights-b": [], "planner": []}
         for name, made in containers.items():
             assert len(NUMBERS[name]) == said[name].get("deploy", {"replicas": 1})["replicas"]
             for number in NUMBERS[name]:
@@ -114,7 +114,8 @@ def look_at_composition(stage: Stage, folder: Path) -> None:
         look_through_proxy(PROXY, "")
         look_through_proxy(BELOW, "/relguide")
         look_at_planners(containers["planner"])
-        look_at_records(containers["flights"][0], said["flights"])
+        look_at_flights(*containers["flights-a"], *containers["flights-b"])
+        look_at_records(containers["flights-b"][0], said["flights-b"])
 
 
 def look_through_proxy(base: str, root: str) -> None:
@@ -150,11 +151,29 @@ def look_at_planners(planners: list[Container]) -> None:
     say(f"Two planners shared 40 plans as {shares}; with one killed the other made all 40.")
 
 
+def look_at_flights(a: Container, b: Container) -> None:
+    """Both fly, one list has the flights of both, and each is found by its id."""
+    started = [ask(f"{PROXY}/api/v1/flights", {"scenario": "fig_6b"})["id"] for _ in range(16)]
+    assert {name[0] for name in started} == {"a", "b"}, started
+    listed = [flight["id"] for flight in ask(f"{PROXY}/api/v1/flights")["flights"]]
+    assert set(started) <= set(listed), listed
+    for name in started:
+        assert ask(f"{PROXY}/api/v1/flights/{name}")["id"] == name
+    a.stop(signal.SIGKILL)
+    for _ in range(4):
+        assert ask(f"{PROXY}/api/v1/flights", {"scenario": "fig_6b"})["id"][0] == "b"
+    for name in started:
+        assert _status(f"{PROXY}/api/v1/flights/{name}", {}, None) == (
+            404 if name[0] == "a" else 200
+        )
+    say("Two processes fly behind one address; with one killed the other flies on.")
+
+
 def look_at_records(flights: Container, said: dict[str, Any]) -> None:
     """PostgreSQL has them, whoever wrote them."""
     assert said["environment"]["RELGUIDE_DATABASE_URL"].startswith("postgresql://")
-    _wait_for(f"http://{NETWORK}.{NUMBERS['flights'][0]}:8000/readyz")  # its workers, too
-    ready = ask(f"http://{NETWORK}.{NUMBERS['flights'][0]}:8000/readyz")
+    _wait_for(f"http://{NETWORK}.{NUMBERS['flights-b'][0]}:8000/readyz")  # its workers, too
+    ready = ask(f"http://{NETWORK}.{NUMBERS['flights-b'][0]}:8000/readyz")
     assert ready["records"] == {"status": "on", "message": ""}, ready
     listed = ask(f"{PROXY}/api/v1/records/flights")["flights"]
     assert {one["scenario"] for one in listed} == {"fig_6b"}, listed
@@ -168,7 +187,7 @@ def below() -> str:
     """A proxy that serves below a path, from docs/service.md."""
     text = (ROOT / "docs/service.md").read_text()
     (location,) = re.findall(r"```\n(location /relguide/ \{.*?\n\})\n```", text, re.DOTALL)
-    there = location.replace("http://127.0.0.1:8000/", "http://flights/")
+    there = location.replace("http://127.0.0.1:8000/", "http://flights-a:8000/")
     assert there != location
     return f"server {{\nlisten 8080;\n{there}\n}}\n"
 
@@ -191,9 +210,9 @@ def _open(url: str) -> bytes:
         return content
 
 
-def _status(url: str, headers: dict[str, str]) -> int:
+def _status(url: str, headers: dict[str, str], body: bytes | None = b"{}") -> int:
     try:
-        urllib.request.urlopen(urllib.request.Request(url, b"{}", headers), timeout=30.0).close()
+        urllib.request.urlopen(urllib.request.Request(url, body, headers), timeout=30.0).close()
     except urllib.error.HTTPError as refused:
         return refused.code
     return 200

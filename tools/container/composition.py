@@ -7,6 +7,7 @@ import os
 import re
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -21,7 +22,9 @@ from tools.container.dockerfile import ROOT
 from tools.container.image import Stage
 
 PASSWORD = "of-the-tests"
-NUMBERS = {"database": (2,), "flights": (3,), "planner": (4, 5), "proxy": (6,)}
+NUMBERS = {
+    "database": (2,), "flights-a": (3,), "planner": (4, 5), "proxy": (6,), "flights-b": (7,)
+}  # fmt: skip
 """The addresses of each service: as many as it has replicas."""
 PATIENCE = 120.0
 """How long a service has to become healthy [s]."""
@@ -163,8 +166,13 @@ def proxy(root: Path, on: list[str], config: str, names: Path) -> Iterator[None]
     (root / "etc/nginx/conf.d/default.conf").write_text(config)
     (root / "etc/hosts").write_text(names.read_text())
     command = ["chroot", str(root), "nginx", "-g", "daemon off;"]
-    with subprocess.Popen([*on, *command], env=inside({})) as process:
+    resolve = [sys.executable, "-m", "tools.container.names", str(names), "127.0.0.11", "53"]
+    with (
+        subprocess.Popen([*on, *resolve], cwd=ROOT) as resolver,
+        subprocess.Popen([*on, *command], env=inside({})) as process,
+    ):
         try:
             yield
         finally:
             process.terminate()
+            resolver.terminate()

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-52c606c08217";
+export const PROTOCOL = "relguide-38cc71cee134";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -760,7 +760,7 @@ export interface Deviation {
   /** Beside the path, from D, from the level [m]; before or behind [s]; of a turn how late [s]. */
   amount: number;
   unit: "m" | "s";
-  /** Since when it is at this level. */
+  /** Since when it is at this level or above. */
   since_s: number;
   message: string;
 }
@@ -933,6 +933,7 @@ export interface FlightEnded {
 /** All flights. */
 export interface FlightList {
   flights: FlightStatus[];
+  missing?: string[];
 }
 
 /** All that is known before the flight: the first document. */
@@ -964,6 +965,8 @@ export interface FlightStatus {
   rate: number;
   paused: boolean;
   ended: boolean;
+  outcome: "" | "broken" | "stopped" | "joined" | "time_over" | "recording_over" | "plane_left";
+  started_at: string;
   mode: Mode;
   engagement: Engagement;
   joined: boolean;
@@ -2369,6 +2372,8 @@ export interface Tick {
   paused: boolean;
   ended: boolean;
   documents: Document[];
+  started_at?: string;
+  version?: string;
 }
 
 /** A time to keep behind the traffic. */

@@ -60,6 +60,8 @@ function flying() {
     rate: 1,
     paused: false,
     ended: false,
+    outcome: "",
+    started_at: "2026-11-23T06:30:00.000Z",
     mode: "converge",
     engagement: "engaged",
     joined: false,

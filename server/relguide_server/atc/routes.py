@@ -230,7 +230,12 @@ async def reply_clearance(
 
 
 @router.websocket("/atc/stream")
-async def atc_stream(websocket: WebSocket, desk: DeskOf) -> None:
+async def atc_stream(
+    websocket: WebSocket,
+    desk: DeskOf,
+    first: Annotated[int | None, Query(alias="from", ge=0)] = None,
+    answers: bool = True,
+) -> None:
     """What happens at the desk; the first frame is a snapshot, or what is new since `?from=`.
 
     While one is open of who may answer, and `?answers=false` does not say that it only looks on,
@@ -247,9 +252,8 @@ async def atc_stream(websocket: WebSocket, desk: DeskOf) -> None:
     if len(desk.journal.clients) >= websocket.app.state.settings.max_watchers:
         await websocket.close(TOO_MANY, "As many listen to this stream as may: try again later.")
         return
-    first = websocket.query_params.get("from", "")
-    answers = websocket.query_params.get("answers") != "false" and may_answer(websocket, "")
-    client = desk.journal.join(int(first) if first.isdecimal() and len(first) < 16 else None)
+    answers = answers and may_answer(websocket, "")
+    client = desk.journal.join(first)
     desk.answering += answers
     try:
         await client.pump(websocket, _refuse_frame)

@@ -4,7 +4,7 @@ from dataclasses import replace
 from math import hypot
 
 from relguide.atc.documents import Finding, ValidationCard, Verdict
-from relguide.atc.phraseology import spacing_text, unable_text
+from relguide.atc.phraseology import STANDBY, spacing_text
 from relguide.atc.request import Manoeuvre
 from relguide.atc.settings import AtcSettings
 from relguide.units import Metre
@@ -17,7 +17,8 @@ def with_its_place(
     """What automation finds of a request, its place behind the leader considered.
 
     A place that is taken makes it stand by until whoever has it is over, and says which one is
-    free. Places nearer than the minimum between aircraft are one place.
+    free; that both would come too close there goes without saying. Places nearer than the minimum
+    between aircraft are one place.
 
     Args:
         case: what was validated.
@@ -39,12 +40,15 @@ def with_its_place(
     )
     finding = Finding(
         reason="slot_taken",
-        text=unable_text("slot_taken", (first.ident,)),
+        text=f"{STANDBY} DUE TO TRAFFIC {first.ident}",
         message=message,
         idents=(first.ident,),
     )
-    verdict: Verdict = "unable" if found.verdict == "unable" else "standby"
-    return replace(found, verdict=verdict, findings=(finding, *found.findings))
+    holders = {one.clearance.request.ident for one in taken}
+    others = tuple(one for one in found.findings if not one.idents or not holders >= {*one.idents})
+    unable = found.verdict == "unable" and any(one.reason != "stale_picture" for one in others)
+    verdict: Verdict = "unable" if unable else "standby"
+    return replace(found, verdict=verdict, findings=(finding, *others))
 
 
 def distance_behind(request: Manoeuvre) -> Metre:

@@ -109,7 +109,7 @@ class LiveFleet:
         """
         await self._make_room()
         label = FlightLabel(
-            id=secrets.token_hex(6),
+            id=self._new_id(),
             scenario=scenario,
             title=title,
             replay=replay,
@@ -136,6 +136,10 @@ class LiveFleet:
             await self._land(flight, "broken")
             raise Refusal(500, "The flight stopped before it began: the server's log says why.")
         return flight
+
+    def _new_id(self) -> str:
+        process = self._settings.process
+        return f"{process}-{secrets.token_hex(6)}" if process else secrets.token_hex(6)
 
     async def remove(self, flight_id: str) -> None:
         """End a flight and forget it."""

@@ -6,10 +6,11 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from relguide.contract.messages import FlightOutcome
 from relguide.contract.places import UNANCHORED, Anchor
 from relguide.contract.upstream import Upstream
 from relguide.contract.wire import tick
-from relguide.flying.documents import CommandGiven, Document, FlightEnded, Sample
+from relguide.flying.documents import CommandGiven, Document, FlightEnded, FlightStarted, Sample
 from relguide.flying.orders import Command
 from relguide.planning.frames import LocalPlane
 from relguide.units import Second
@@ -20,6 +21,8 @@ from relguide_server.flights.pace import Pace
 from relguide_server.flights.stream import FLIGHT_BROKEN, FLIGHT_GONE, StreamClient
 from relguide_server.http.errors import run_logged
 from relguide_server.http.metrics import Metrics
+from relguide_server.http.security_headers import VERSION
+from relguide_server.records.clock import date
 from relguide_server.records.entries import Outcome
 from relguide_server.records.recorder import Recorder
 from relguide_server.scene.inbox import Inbox
@@ -106,6 +109,20 @@ class LiveFlight:
     def over(self) -> bool:
         """Whether it has ended, or was stopped by a mistake of ours."""
         return bool(self.history.ended) or self.broken or self._shown
+
+    @property
+    def outcome(self) -> FlightOutcome:
+        """Why it is over; empty while it flies."""
+        if self.broken:
+            return "broken"
+        for ended in self.history.ended:
+            return ended.reason
+        return "stopped" if self._shown else ""
+
+    @property
+    def started_at(self) -> str:
+        """When it began by the wall clock, as RFC 3339 has it; a recording, when it was flown."""
+        return date(self._recording.started_at)
 
     @property
     def recorded(self) -> bool:
@@ -266,6 +283,7 @@ class LiveFlight:
 
     def _text(self, documents: Sequence[Document]) -> str:
         plane = self.label.plane
+        begins = any(isinstance(document, FlightStarted) for document in documents)
         return tick(
             self.label.id,
             t=self.t,
@@ -274,6 +292,7 @@ class LiveFlight:
             ended=self.over,
             documents=documents,
             place=None if plane is None else plane.to_geodetic,
+            origin={"started_at": self.started_at, "version": VERSION} if begins else {},
         ).decode()
 
     def _run(self) -> None:

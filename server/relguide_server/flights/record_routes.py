@@ -1,9 +1,11 @@
 """Routes of what is on record: find flights, read, replay, export and remove them."""
 
 from collections.abc import AsyncIterator, Iterator
+from datetime import datetime
 from itertools import tee
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
+import orjson
 from fastapi import APIRouter, Depends, Path, Query, Request
 from pydantic import AwareDatetime, BeforeValidator, RootModel
 from starlette.responses import Response, StreamingResponse
@@ -21,17 +23,22 @@ from relguide_server.flights.routes import status_of
 from relguide_server.http.access import owner_of
 from relguide_server.http.bodies import json_answer, read_object
 from relguide_server.http.errors import Refusal, refusal_of
+from relguide_server.http.etags import has, headers_of, tag_of, tagged_answer
 from relguide_server.http.idempotency import IdempotentRoute
 from relguide_server.http.openapi import (
     BODY,
+    NOT_MODIFIED,
+    TAGGED,
     header_references,
     problem_responses,
     request_body,
     response,
     schema_of,
+    tagged_response,
 )
 from relguide_server.http.proxy import root_of
 from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
+from relguide_server.http.security_headers import VERSION as SOFTWARE
 from relguide_server.records import exports
 from relguide_server.records.bodies import (
     RecordedDocuments,
@@ -40,7 +47,8 @@ from relguide_server.records.bodies import (
     RecordedPlanList,
     ReplayRequest,
 )
-from relguide_server.records.entries import Outcome, RecordSearch
+from relguide_server.records.cursors import place_of
+from relguide_server.records.entries import Outcome, Place, RecordSearch
 from relguide_server.records.recorder import Recorder
 from relguide_server.records.service import RecordsOf, RecordsService
 
@@ -99,18 +107,22 @@ Moment = Annotated[AwareDatetime, BeforeValidator(_expect_no_number)]
 Since = Annotated[Moment | None, Query(description="Begun at this time or later.")]
 Until = Annotated[Moment | None, Query(description="Begun before this time.")]
 Limit = Annotated[int, Query(ge=1, le=MOST, description="How many at most.")]
-Offset = Annotated[int, Query(ge=0, le=10**9, description="How many of the newest to pass over.")]
+Cursor = Annotated[
+    str | None,
+    Query(max_length=200, description="Go on where an answer ended: its `next`; else the newest."),
+]
 
 
 @router.get(
     "/flights",
     summary="Flights on record",
     responses={
-        **response(200, "The newest first.", schema_of(RecordedFlightList)),
+        **tagged_response("The newest first.", schema_of(RecordedFlightList)),
         **problem_responses(*READING, "invalid"),
     },
 )
 async def list_recorded(
+    request: Request,
     records: RecordsOf,
     since: Since = None,
     until: Until = None,
@@ -119,7 +131,7 @@ async def list_recorded(
     ] = None,
     outcome: Annotated[Outcome | None, Query(description="What became of it.")] = None,
     limit: Limit = 100,
-    offset: Offset = 0,
+    cursor: Cursor = None,
 ) -> Response:
     """Those in the air as well; what is new of them is here within a second."""
     from relguide_server.records import queries
@@ -130,20 +142,22 @@ async def list_recorded(
         scenario=scenario,
         outcome=outcome,
         limit=limit,
-        offset=offset,
+        after=_place_of(cursor),
     )
-    return json_answer({"flights": await records.read(lambda s: queries.find_flights(s, search))})
+    found = await records.read(lambda s: queries.find_flights(s, search))
+    return tagged_answer(request, {"flights": found.rows, "next": found.next, "total": found.total})
 
 
 @router.get(
     "/plans",
     summary="Plans on record",
     responses={
-        **response(200, "The newest first.", schema_of(RecordedPlanList)),
+        **tagged_response("The newest first.", schema_of(RecordedPlanList)),
         **problem_responses(*READING, "invalid"),
     },
 )
 async def list_plans(
+    request: Request,
     records: RecordsOf,
     since: Since = None,
     until: Until = None,
@@ -151,7 +165,7 @@ async def list_plans(
         Literal["planned", "no_plan"] | None, Query(description="Of the answer.")
     ] = None,
     limit: Limit = 100,
-    offset: Offset = 0,
+    cursor: Cursor = None,
 ) -> Response:
     """The situations of `POST /plans`, at most as many a second as the service is set to keep."""
     from relguide_server.records import queries
@@ -161,34 +175,36 @@ async def list_plans(
         until=until.timestamp() if until else None,
         outcome=status,
         limit=limit,
-        offset=offset,
+        after=_place_of(cursor),
     )
-    return json_answer({"plans": await records.read(lambda s: queries.find_plans(s, search))})
+    found = await records.read(lambda s: queries.find_plans(s, search))
+    return tagged_answer(request, {"plans": found.rows, "next": found.next, "total": found.total})
 
 
 @router.get(
     "/flights/{flight_id}",
     summary="One flight on record",
     responses={
-        **response(200, "All but its documents.", schema_of(RecordedFlightDetails)),
+        **tagged_response("All but its documents.", schema_of(RecordedFlightDetails)),
         **problem_responses(*READING),
     },
 )
-async def show_recorded(flight_id: RecordedId, records: RecordsOf) -> Response:
+async def show_recorded(flight_id: RecordedId, request: Request, records: RecordsOf) -> Response:
     """What was asked, by whom, with which settings; the commands given; and how it went."""
-    return json_answer(await _find(flight_id, records))
+    return tagged_answer(request, await _find(flight_id, records))
 
 
 @router.get(
     "/flights/{flight_id}/documents",
     summary="Documents of a flight",
     responses={
-        **response(200, "In order.", schema_of(RecordedDocuments)),
+        **tagged_response("In order.", schema_of(RecordedDocuments)),
         **problem_responses(*READING, "invalid"),
     },
 )
 async def list_documents(
     flight_id: RecordedId,
+    request: Request,
     records: RecordsOf,
     first: Annotated[int, Query(ge=0, le=10**9, description="From this number on.")] = 0,
     limit: Annotated[
@@ -202,7 +218,7 @@ async def list_documents(
     found = await records.read(lambda s: queries.read_documents(s, flight_id, first, limit))
     following = found[-1][0] + 1 if found else first
     listed = b",".join(b'{"number":%d,"document":%s}' % (n, line.strip()) for n, line in found)
-    return json_answer(b'{"documents":[%s],"next":%d}' % (listed, following))
+    return tagged_answer(request, b'{"documents":[%s],"next":%d}' % (listed, following))
 
 
 @router.post(
@@ -238,7 +254,7 @@ async def replay_flight(
         lambda commands: (from_wire(line) for lines in kept for line in lines),
         rate=wanted.rate,
         paused=wanted.paused,
-        record=lambda _: Recorder(),
+        record=lambda _: Recorder(datetime.fromisoformat(about["started_at"]).timestamp()),
         replay=True,
         owner=owner_of(request),
         anchor=_anchor(about["request"]),
@@ -255,13 +271,15 @@ async def replay_flight(
         200: {
             "description": "The file.",
             "content": {media: {"schema": {"type": "string"}} for media in MEDIA.values()},
-            "headers": header_references(["Content-Disposition"]),
+            "headers": header_references(["Content-Disposition", *TAGGED]),
         },
+        **NOT_MODIFIED,
         **problem_responses(*READING, "invalid", "not-installed"),
     },
 )
 async def export_flight(
     flight_id: RecordedId,
+    request: Request,
     records: RecordsOf,
     form: Annotated[
         Literal["jsonl", "csv", "geojson", "czml", "parquet"],
@@ -282,22 +300,33 @@ async def export_flight(
         Query(ge=-180.0, le=180.0, allow_inf_nan=False, description="Longitude of the same."),
     ] = None,
 ) -> Response:  # fmt: skip
-    """What is on record of it now, and when it began, its id, and the version that flew it."""
+    """What is on record of it now, and when it began, its id, and the version that flew it.
+
+    It has an `ETag` once the flight is over.
+    """
     from relguide_server.records import queries
 
     about = await _find(flight_id, records)
-    origin = _origin(about)
+    origin, asked = _origin(about), about["request"]
+    levels = "situation" not in asked or exports.gives_level([asked, about["commands"]])
     if form not in ("geojson", "czml") and (lat_deg, lon_deg) != (None, None):
         raise Refusal(422, f"lat_deg and lon_deg have no meaning for {form}: leave them out.")
     headers = {"Content-Disposition": f'attachment; filename="flight-{about["id"]}.{form}"'}
+    if about["outcome"] != "flying":  # nothing of it changes any more
+        tag = tag_of(orjson.dumps([about, form, lat_deg, lon_deg, SOFTWARE]))
+        headers |= headers_of(tag)
+        if has(request.headers, tag):
+            return Response(status_code=304, headers=headers)
     match form:
         case "jsonl" | "csv":
-            lines = _parts(records, origin, about["form"], form)
+            lines = _parts(records, origin, about["form"], form, levels=levels)
             return StreamingResponse(lines, media_type=MEDIA[form], headers=headers)
         case "geojson":
             plane = _plane(about["request"], lat_deg, lon_deg)
             body = await records.read(
-                lambda s: exports.as_geojson(origin, plane, queries.each_chunk(s, flight_id))
+                lambda s: exports.as_geojson(
+                    origin, plane, queries.each_chunk(s, flight_id), levels=levels
+                )
             )
         case "czml":
             plane, title = _plane(about["request"], lat_deg, lon_deg), about["title"]
@@ -307,7 +336,9 @@ async def export_flight(
         case "parquet":
             try:
                 body = await records.read(
-                    lambda s: exports.as_parquet(origin, queries.each_chunk(s, flight_id))
+                    lambda s: exports.as_parquet(
+                        origin, queries.each_chunk(s, flight_id), levels=levels
+                    )
                 )
             except MissingExtra as error:
                 raise Refusal(501, str(error)) from None
@@ -335,6 +366,14 @@ async def remove_recorded(flight_id: RecordedId, records: RecordsOf) -> Response
     return Response(status_code=204)
 
 
+def _place_of(cursor: str | None) -> Place | None:
+    """Where a list goes on; `None` for its beginning."""
+    try:
+        return None if cursor is None else place_of(cursor)
+    except ValueError as error:
+        raise refusal_of(ContractError([("cursor", str(error))])) from None
+
+
 async def _find(flight_id: str, records: RecordsService) -> dict[str, Any]:
     from relguide_server.records import queries
 
@@ -358,7 +397,7 @@ def _origin(about: dict[str, Any]) -> exports.Origin:
 
 
 async def _parts(
-    records: RecordsService, origin: exports.Origin, form: int, kind: str
+    records: RecordsService, origin: exports.Origin, form: int, kind: str, *, levels: bool = True
 ) -> AsyncIterator[bytes]:
     """A file, a chunk at a time."""
     from relguide_server.records import queries
@@ -366,7 +405,7 @@ async def _parts(
     def begin(store: "Store") -> Iterator[bytes]:
         chunks = queries.each_chunk(store, origin.flight_id)
         if kind == "csv":
-            return exports.as_csv(origin, chunks)
+            return exports.as_csv(origin, chunks, levels=levels)
         return exports.as_recording(origin, form, chunks)
 
     parts = await records.read(begin)

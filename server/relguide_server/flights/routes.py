@@ -56,6 +56,7 @@ from relguide_server.flights.catalogue import CatalogueOf
 from relguide_server.flights.control import HELD, MODELLED, MOST_RATE, TOO_FAST
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
+from relguide_server.flights.peers import Peers
 from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
 from relguide_server.http.access import expect_owner, may_command, owner_of
 from relguide_server.http.bodies import (
@@ -64,8 +65,16 @@ from relguide_server.http.bodies import (
     read_object,
 )
 from relguide_server.http.errors import Refusal, refusal_of
+from relguide_server.http.etags import tagged_answer
 from relguide_server.http.idempotency import IdempotentRoute
-from relguide_server.http.openapi import BODY, problem_responses, request_body, response, schema_of
+from relguide_server.http.openapi import (
+    BODY,
+    problem_responses,
+    request_body,
+    response,
+    schema_of,
+    tagged_response,
+)
 from relguide_server.http.proxy import root_of
 from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
 from relguide_server.http.security_headers import VERSION
@@ -99,11 +108,11 @@ router = APIRouter(
 @router.get(
     "/scenarios",
     summary="Scenarios that can be flown",
-    responses=response(200, "All scenarios.", schema_of(ScenarioList)),
+    responses=tagged_response("All scenarios.", schema_of(ScenarioList)),
 )
-async def list_scenarios(catalogue: CatalogueOf) -> Response:
+async def list_scenarios(request: Request, catalogue: CatalogueOf) -> Response:
     """The paper's cases and ours; one whose data are missing says what to install."""
-    return json_answer((await asyncio.to_thread(catalogue.scenarios)).model_dump())
+    return tagged_answer(request, (await asyncio.to_thread(catalogue.scenarios)).model_dump())
 
 
 @router.post(
@@ -182,9 +191,16 @@ async def start_flight(
     responses=response(200, "All flights.", schema_of(FlightList)),
 )
 async def list_flights(request: Request, fleet: FleetOf) -> Response:
-    """Those in the air, and those that ended a short while ago."""
-    statuses = [status_of(flight, request) for flight in fleet]
-    return json_answer(FlightList(flights=statuses).model_dump())
+    """Those in the air, and those that ended a short while ago; of all processes, if several fly.
+
+    Which of these did not answer, `missing` says, if any. `Relguide-Process: a` asks for those of
+    process a alone.
+    """
+    peers: Peers = request.app.state.peers
+    others, missing = await peers.flights(request)
+    own = [status_of(flight, request) for flight in fleet]
+    listed = FlightList(flights=own + others, missing=missing)
+    return json_answer(listed.model_dump(exclude=None if missing else {"missing"}))
 
 
 @router.get(
@@ -303,6 +319,8 @@ def status_of(flight: LiveFlight, request: Request) -> FlightStatus:
         rate=pace.rate,
         paused=pace.paused,
         ended=flight.over,
+        outcome=flight.outcome,
+        started_at=flight.started_at,
         mode=guidance.mode,
         engagement=guidance.engagement,
         joined=guidance.joined,

@@ -18,7 +18,7 @@ from relguide_server.flights.control import MOST_RATE
 from relguide_server.flights.frames import LONGEST, MOST
 from relguide_server.flights.hands import SILENCE
 from relguide_server.flights.stream import CLOSE_CODES
-from relguide_server.http.bodies import json_answer
+from relguide_server.http.etags import tagged_answer
 from relguide_server.http.page_style import STYLE, prose
 from relguide_server.http.proxy import root_of
 from relguide_server.http.security_headers import VERSION
@@ -70,7 +70,7 @@ async def asyncapi(request: Request) -> Response:
     host = request.headers.get("host", "localhost")
     scheme = "wss" if request.url.scheme == "https" else "ws"
     server = {"host": host, "protocol": scheme, "pathname": root_of(request.scope) or "/"}
-    return json_answer({**asyncapi_document(), "servers": {"this": server}})
+    return tagged_answer(request, {**asyncapi_document(), "servers": {"this": server}})
 
 
 @router.get("/docs/stream")

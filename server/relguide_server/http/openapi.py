@@ -11,18 +11,21 @@ from importlib.resources import files
 from typing import Any
 
 import orjson
-from fastapi import FastAPI
+from fastapi import FastAPI, Request
 from fastapi.openapi.utils import get_openapi
 from fastapi.routing import APIRoute, iter_route_contexts
 from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
+from starlette.responses import Response
 
 from relguide_server.http.access import CALCULATIONS, OPEN, SAFE
 from relguide_server.http.bodies import JSON
 from relguide_server.http.errors import PROBLEM_JSON, Problem
+from relguide_server.http.etags import tagged_answer
 from relguide_server.http.idempotency import HEADER, LONGEST, SOUND, IdempotentRoute
 from relguide_server.http.kept_answers import REPLAYED
 from relguide_server.http.problem_kinds import KINDS, PAGE
+from relguide_server.http.proxy import root_of
 from relguide_server.http.query import refuse_unknown_parameters
 
 EXAMPLES = "api_examples.json"
@@ -51,10 +54,13 @@ HEADERS = {
     "Retry-After": "When to try again [s].",
     "WWW-Authenticate": "`Bearer`: how to show a token.",
     "ETag": "Names this very content: `If-None-Match` asks whether it is still the same.",
+    "Cache-Control": "`no-cache`: it may be kept, and is asked for again by its `ETag`.",
     "Content-Disposition": "A name for the file.",
     REPLAYED: "`true` where the request had been answered before, and this is that answer.",
 }
 """All headers of answers that the API gives a meaning, and what they say."""
+TAGGED = ("ETag", "Cache-Control")
+"""Headers of an answer with a tag."""
 KEY = {
     "name": HEADER,
     "in": "header",
@@ -113,9 +119,22 @@ def response(
     return {status: {**said, "headers": header_references(headers)}}
 
 
+def tagged_response(description: str, schema: dict[str, Any]) -> dict[int | str, dict[str, Any]]:
+    """The entries of `responses=` of a route that answers by `tagged_answer`."""
+    return {**response(200, description, schema, headers=TAGGED), **NOT_MODIFIED}
+
+
 def header_references(names: Iterable[str]) -> dict[str, Any]:
     """Headers of an answer, of `HEADERS`."""
     return {name: {"$ref": _HEADER.format(name=name)} for name in names}
+
+
+NOT_MODIFIED: dict[int | str, dict[str, Any]] = {
+    304: {
+        "description": "It is the one that you have.",
+        "headers": header_references(TAGGED),
+    }
+}
 
 
 def problem_responses(*kinds: str) -> dict[int | str, dict[str, Any]]:
@@ -147,14 +166,23 @@ def name_of(route: APIRoute) -> str:
 
 
 def describe(app: FastAPI) -> None:
-    """Give the app its OpenAPI document."""
+    """Give the app its OpenAPI document, at `/openapi.json`."""
 
     def openapi() -> dict[str, Any]:
         if app.openapi_schema is None:
             app.openapi_schema = _document(app)
         return app.openapi_schema
 
+    @cache
+    def written(root: str) -> bytes:
+        servers = {"servers": [{"url": root}]} if root else {}
+        return orjson.dumps({**openapi(), **servers})
+
+    async def show(request: Request) -> Response:
+        return tagged_answer(request, written(root_of(request.scope)))
+
     app.openapi = openapi  # type: ignore[method-assign]
+    app.add_route("/openapi.json", show, include_in_schema=False)
 
 
 def _document(app: FastAPI) -> dict[str, Any]:

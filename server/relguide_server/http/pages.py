@@ -19,6 +19,7 @@ from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from relguide_server.http.errors import Refusal
+from relguide_server.http.etags import ASK_AGAIN, has, tag_of
 from relguide_server.http.proxy import path_of, root_of
 
 PACKAGE = Path(__file__).parents[1]
@@ -114,9 +115,9 @@ def _read(path: Path) -> _File:
         body=body,
         packed=gzip.compress(body, 9) if pack else b"",
         media_type=media_type,
-        tag=f'"{sha256(body).hexdigest()[:20]}"',
+        tag=tag_of(body),
         # Vite writes the hash of the content into the names of what it puts into assets/.
-        cache=FOR_EVER if path.parent.name == "assets" else "no-cache",
+        cache=FOR_EVER if path.parent.name == "assets" else ASK_AGAIN,
         for_all=path.parent.name == "embed",
     )
 
@@ -125,7 +126,7 @@ def _answer(file: _File, request: Headers) -> Response:
     headers = {"ETag": file.tag, "Cache-Control": file.cache, "Vary": "Accept-Encoding"}
     if file.for_all:
         headers["Access-Control-Allow-Origin"] = "*"
-    if file.tag in request.get("if-none-match", ""):
+    if has(request, file.tag):
         return Response(status_code=304, headers=headers)
     if file.packed and "gzip" in request.get("accept-encoding", ""):
         headers["Content-Encoding"] = "gzip"

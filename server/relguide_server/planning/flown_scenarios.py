@@ -3,7 +3,6 @@
 import gzip
 from collections import OrderedDict
 from dataclasses import dataclass
-from hashlib import sha256
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, Path, Query, Request
@@ -13,7 +12,14 @@ from relguide.contract.messages import ScenarioFlightRequest, Seed
 from relguide.flying.scenarios import SCENARIOS, no_scenario
 from relguide_server.http.bodies import address_of, unless_left
 from relguide_server.http.errors import Refusal
-from relguide_server.http.openapi import WORK, header_references, problem_responses
+from relguide_server.http.etags import has, headers_of, tag_of
+from relguide_server.http.openapi import (
+    NOT_MODIFIED,
+    TAGGED,
+    WORK,
+    header_references,
+    problem_responses,
+)
 from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
 from relguide_server.jobs.worker_pool import WorkerPool
 from relguide_server.planning.plan_service import PlanService
@@ -63,7 +69,7 @@ class KeptRecordings:
     def put(self, asked: Asked, packed: bytes) -> Recording:
         """Keep what was flown; those not asked for longest make room for it."""
         before = self._kept.pop(asked, None)
-        made = Recording(packed, f'"{sha256(packed).hexdigest()[:20]}"')
+        made = Recording(packed, tag_of(packed))
         self._kept[asked] = made
         self._size += len(packed) - (len(before.packed) if before else 0)
         while self._size > self._most:
@@ -78,9 +84,9 @@ class KeptRecordings:
         200: {
             "description": "Its recording: a line that says what it is, then a document a line.",
             "content": {LINES: {"schema": {"type": "string"}}},
-            "headers": header_references(["ETag"]),
+            "headers": header_references(TAGGED),
         },
-        304: {"description": "It is the one that you have."},
+        **NOT_MODIFIED,
         **problem_responses("not-found", "invalid", "not-installed", *WORK),
     },
 )
@@ -126,8 +132,8 @@ def _expect_known(name: str) -> None:
 
 
 def _answer(found: Recording, request: Request) -> Response:
-    headers = {"ETag": found.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
-    if found.tag in request.headers.get("if-none-match", ""):
+    headers = {**headers_of(found.tag), "Vary": "Accept-Encoding"}
+    if has(request.headers, found.tag):
         return Response(status_code=304, headers=headers)
     if "gzip" in request.headers.get("accept-encoding", ""):
         headers["Content-Encoding"] = "gzip"

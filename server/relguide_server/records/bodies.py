@@ -73,6 +73,10 @@ class RecordedFlightList(Strict):
 
     flights: list[RecordedFlight]
     """At most as many as were asked for."""
+    next: str | None
+    """`cursor` of what follows; null at the end."""
+    total: int
+    """How many there are in all, with the same query but for `limit` and `cursor`."""
 
 
 class RecordedCommand(Strict):
@@ -143,3 +147,7 @@ class RecordedPlanList(Strict):
 
     plans: list[RecordedPlan]
     """At most as many as were asked for."""
+    next: str | None
+    """`cursor` of what follows; null at the end."""
+    total: int
+    """How many there are in all, with the same query but for `limit` and `cursor`."""

@@ -19,6 +19,16 @@ PATIENCE = 5.0
 UPGRADE_LOCK = 7_734_433
 """Number of the advisory lock under which PostgreSQL's tables are brought up to date."""
 
+NEWER = (
+    "The tables were made by a newer version of relguide: update this one, or give another "
+    "RELGUIDE_DATABASE_URL."
+)
+_POSTGRESQL = {
+    "connect_timeout": int(PATIENCE),
+    "options": f"-c statement_timeout={1000 * int(PATIENCE)}",
+    "tcp_user_timeout": 1000 * int(PATIENCE),
+}
+
 
 def url_of(text: str, folder: Path) -> URL:
     """The address of the database.
@@ -54,15 +64,7 @@ def connect(url: URL) -> Engine:
     """
     with sentences(url):
         if url.drivername != "sqlite":
-            engine = sa.create_engine(
-                url,
-                pool_pre_ping=True,
-                connect_args={
-                    "connect_timeout": int(PATIENCE),
-                    "options": f"-c statement_timeout={1000 * int(PATIENCE)}",
-                    "tcp_user_timeout": 1000 * int(PATIENCE),
-                },
-            )
+            engine = sa.create_engine(url, pool_pre_ping=True, connect_args=_POSTGRESQL)
         else:
             Path(url.database or "").parent.mkdir(parents=True, exist_ok=True)
             engine = sa.create_engine(url, connect_args={"timeout": PATIENCE})
@@ -74,6 +76,36 @@ def connect(url: URL) -> Engine:
             engine.dispose()
             raise
         return engine
+
+
+def outlook(url: URL) -> str:
+    """What `connect` would do to a database, in a sentence; nothing is changed.
+
+    Raises:
+        Unavailable: if it cannot be reached, or was made by a newer version.
+    """
+    where = url.render_as_string(hide_password=True)
+    with sentences(url):
+        if url.drivername != "sqlite":
+            engine = sa.create_engine(url, connect_args=_POSTGRESQL)
+        elif (file := Path(url.database or "")).exists():
+            readable = f"{file.resolve().as_uri()}?mode=ro"
+            engine = sa.create_engine(
+                "sqlite://", creator=lambda: sqlite3.connect(readable, uri=True)
+            )
+        else:
+            return f"{where} does not exist: it is made at the start."
+        try:
+            revision = _revision(engine)
+        finally:
+            engine.dispose()
+    if not revision:
+        return f"{where} has no tables: they are made at the start."
+    if revision > HEAD:
+        raise Unavailable(NEWER)
+    if revision < HEAD:
+        return f"{where} has tables of revision {revision}, brought up to {HEAD} at the start."
+    return f"{where} has the tables of this version (revision {HEAD})."
 
 
 @contextmanager
@@ -149,10 +181,7 @@ def _bring_up_to_date(engine: Engine) -> None:
         try:
             command.upgrade(config, "head")
         except CommandError:
-            raise Unavailable(
-                "The tables were made by a newer version of relguide: update this one, or give "
-                "another RELGUIDE_DATABASE_URL."
-            ) from None
+            raise Unavailable(NEWER) from None
 
 
 def _revision(engine: Engine) -> str:

@@ -128,6 +128,18 @@ Entry = Began | FlownDocument | Commanded | Ended | PlanAsked | ClearanceNoted
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Place:
+    """A place in a list of records, the newest first."""
+
+    at: float
+    """When the flight began or the plan was made [Unix time, s]."""
+    name: str
+    """Of the flight; of the run of the service that made the plan."""
+    number: int = 0
+    """Of the plan in its run."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RecordSearch:
     """Which records are wanted, the newest first."""
 
@@ -139,4 +151,5 @@ class RecordSearch:
     outcome: str | None = None
     """Of a flight; the status of a plan."""
     limit: int = 100
-    offset: int = 0
+    after: Place | None = None
+    """Only those behind it."""

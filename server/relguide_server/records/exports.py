@@ -46,6 +46,25 @@ class Origin:
     """Of the service that flew it."""
 
 
+LEVELS = ("altitude_m", "to_altitude_m", "leader_level_m")
+"""Fields that give an aircraft a level."""
+
+
+def gives_level(said: object) -> bool:
+    """Whether a request, or what was ordered later, gives any aircraft a level."""
+    match said:
+        case dict():
+            return any(
+                (name in LEVELS and value is not None) or gives_level(value)
+                for name, value in said.items()
+                if name not in ("air", "believed_air")
+            )
+        case list():
+            return any(map(gives_level, said))
+        case _:
+            return False
+
+
 COLUMNS = {
     "t_s": "float64",
     **_columns(AircraftSample),
@@ -70,15 +89,22 @@ def as_recording(origin: Origin, form: int, chunks: Iterable[Lines]) -> Iterator
         yield b"".join(lines)
 
 
-def as_csv(origin: Origin, chunks: Iterable[Lines]) -> Iterator[bytes]:
-    """The table of samples as CSV."""
+def as_csv(origin: Origin, chunks: Iterable[Lines], *, levels: bool = True) -> Iterator[bytes]:
+    """The table of samples as CSV.
+
+    Args:
+        origin: which flight it is.
+        chunks: the documents as JSON lines.
+        levels: whether a level was given to any aircraft; else altitudes are left out, which are
+            what the aircraft were flown at for want of one.
+    """
     yield _csv_rows([list(COLUMNS)])
     for lines in chunks:
-        yield _csv_rows([list(row.values()) for row in _rows(lines, origin)])
+        yield _csv_rows([list(row.values()) for row in _rows(lines, origin, levels=levels)])
 
 
-def as_parquet(origin: Origin, chunks: Iterable[Lines]) -> bytes:
-    """The table of samples as Parquet.
+def as_parquet(origin: Origin, chunks: Iterable[Lines], *, levels: bool = True) -> bytes:
+    """The table of samples as Parquet; arguments as in `as_csv`.
 
     Raises:
         MissingExtra: if pyarrow is not installed.
@@ -91,7 +117,7 @@ def as_parquet(origin: Origin, chunks: Iterable[Lines]) -> bytes:
     out = io.BytesIO()
     with pq.ParquetWriter(out, schema) as writer:
         for lines in chunks:
-            if rows := list(_rows(lines, origin)):
+            if rows := list(_rows(lines, origin, levels=levels)):
                 writer.write_table(pa.Table.from_pylist(rows, schema=schema))
     return out.getvalue()
 
@@ -99,20 +125,24 @@ def as_parquet(origin: Origin, chunks: Iterable[Lines]) -> bytes:
 _ARROW = {name: "bool_" if kind == "bool" else kind for name, kind in COLUMNS.items()}
 
 
-def as_geojson(origin: Origin, plane: LocalPlane, chunks: Iterable[Lines]) -> bytes:
+def as_geojson(
+    origin: Origin, plane: LocalPlane, chunks: Iterable[Lines], *, levels: bool = True
+) -> bytes:
     """The tracks of all aircraft, a line each, with the time of each point.
 
     Args:
         origin: which flight it is; a member of the collection.
         plane: how the flight lies on the earth.
         chunks: the documents as JSON lines.
+        levels: as in `as_csv`.
     """
+    most = 3 if levels else 2
     features = [
         {
             "type": "Feature",
             "id": ident,
             "properties": {"ident": ident, "t_s": times},
-            "geometry": line_geometry(points),
+            "geometry": line_geometry([point[:most] for point in points]),
         }
         for ident, (times, points) in _tracks(plane, chunks).items()
     ]
@@ -129,6 +159,8 @@ COLOURS = ([100, 190, 255, 255], [255, 255, 255, 255])
 
 def as_czml(origin: Origin, title: str, plane: LocalPlane, chunks: Iterable[Lines]) -> bytes:
     """All aircraft as they move, for Cesium: positions by the time since the flight began.
+
+    Cesium needs a height: where nobody gave a level, that at which they were flown all the same.
 
     Args:
         origin: which flight it is; properties of the document.
@@ -198,8 +230,12 @@ def _tracks(
     return tracks
 
 
-def _rows(lines: Lines, origin: Origin | None = None) -> Iterator[dict[str, Any]]:
+def _rows(
+    lines: Lines, origin: Origin | None = None, *, levels: bool = True
+) -> Iterator[dict[str, Any]]:
     about = {} if origin is None else asdict(origin)
+    if not levels:
+        about["altitude_m"] = None
     for line in lines:
         document = orjson.loads(line)
         if document["kind"] != "sample":

@@ -1,6 +1,7 @@
 """What is on record: flights to find and read, and plans asked for."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import orjson
@@ -9,23 +10,32 @@ from sqlalchemy.engine import Connection
 
 from relguide_server.records import database
 from relguide_server.records.clock import date
-from relguide_server.records.entries import RecordSearch
+from relguide_server.records.cursors import cursor_of
+from relguide_server.records.entries import Place, RecordSearch
 from relguide_server.records.recording import lines_of
 from relguide_server.records.schema import chunks, clearances, commands, flights, plans
 from relguide_server.records.store import Store
 
 
-def find_flights(store: Store, search: RecordSearch) -> list[dict[str, Any]]:
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A part of a list."""
+
+    rows: list[dict[str, Any]]
+    next: str | None
+    """Cursor of what follows; `None` at its end."""
+    total: int
+    """Of the whole list."""
+
+
+def find_flights(store: Store, search: RecordSearch) -> Found:
     """Flights in short."""
     query = sa.select(flights)
     if search.scenario is not None:
         query = query.where(flights.c.scenario == search.scenario)
     if search.outcome is not None:
         query = query.where(flights.c.outcome == search.outcome)
-    query = _within(query, flights.c.started_at, search)
-    order = (flights.c.started_at.desc(), flights.c.id)
-    with database.reading(store.engine) as connection:
-        return [_summary(row) for row in connection.execute(query.order_by(*order)).mappings()]
+    return _find(store, search, query, (flights.c.started_at, flights.c.id), _summary)
 
 
 def read_flight(store: Store, flight_id: str) -> dict[str, Any] | None:
@@ -83,25 +93,12 @@ def each_chunk(store: Store, flight_id: str) -> Iterator[list[bytes]]:
     return map(lines_of, bodies)
 
 
-def find_plans(store: Store, search: RecordSearch) -> list[dict[str, Any]]:
+def find_plans(store: Store, search: RecordSearch) -> Found:
     """Plans asked for."""
     query = sa.select(plans)
     if search.outcome is not None:
         query = query.where(plans.c.status == search.outcome)
-    query = _within(query, plans.c.at, search)
-    order = (plans.c.at.desc(), plans.c.number.desc())
-    with database.reading(store.engine) as connection:
-        return [
-            {
-                "at": date(row["at"]),
-                "situation": orjson.loads(row["body"]),
-                "planner": row["planner"],
-                "status": row["status"],
-                "compute_ms": 1e3 * row["seconds"],
-                "asked_by": row["asked_by"],
-            }
-            for row in connection.execute(query.order_by(*order)).mappings()
-        ]
+    return _find(store, search, query, (plans.c.at, plans.c.run, plans.c.number), _plan_of)
 
 
 def find_clearances(store: Store, state: str | None, most: int) -> list[dict[str, Any]]:
@@ -141,12 +138,42 @@ def remove_flight(store: Store, flight_id: str) -> str | None:
         return str(row["outcome"])
 
 
-def _within(query: sa.Select[Any], at: sa.Column[float], search: RecordSearch) -> sa.Select[Any]:
+def _find(
+    store: Store,
+    search: RecordSearch,
+    query: sa.Select[Any],
+    keys: tuple[sa.Column[Any], ...],
+    read: Callable[[sa.RowMapping], dict[str, Any]],
+) -> Found:
+    """A part of a list.
+
+    Args:
+        store: where.
+        search: which part.
+        query: the whole list, of any time.
+        keys: what it is ordered by, the highest first: the time, and what is unique then.
+        read: makes an answer of a row.
+    """
     if search.since is not None:
-        query = query.where(at >= search.since)
+        query = query.where(keys[0] >= search.since)
     if search.until is not None:
-        query = query.where(at < search.until)
-    return query.limit(search.limit).offset(search.offset)
+        query = query.where(keys[0] < search.until)
+    part = query.order_by(*(key.desc() for key in keys)).limit(search.limit + 1)
+    if (after := search.after) is not None:
+        last = (after.at, after.name, after.number)[: len(keys)]
+        part = part.where(sa.tuple_(*keys) < sa.tuple_(*map(sa.literal, last)))
+    with database.reading(store.engine) as connection:
+        total = (
+            connection.scalar(query.with_only_columns(sa.func.count(), maintain_column_froms=True))
+            or 0
+        )
+        rows = connection.execute(part).mappings().all()
+    shown = rows[: search.limit]
+    following = None
+    if len(rows) > len(shown):
+        at, name, *number = (shown[-1][key.name] for key in keys)
+        following = cursor_of(Place(at=at, name=name, number=number[0] if number else 0))
+    return Found(list(map(read, shown)), following, total)
 
 
 def _row_of(connection: Connection, flight_id: str) -> sa.RowMapping | None:
@@ -171,6 +198,17 @@ def _chunk_from(store: Store, flight_id: str, number: int) -> list[tuple[int, by
         return []
     numbered = ((row.first + k, line) for k, line in enumerate(lines_of(row.body)))
     return [(n, line) for n, line in numbered if n >= number]
+
+
+def _plan_of(row: sa.RowMapping) -> dict[str, Any]:
+    return {
+        "at": date(row["at"]),
+        "situation": orjson.loads(row["body"]),
+        "planner": row["planner"],
+        "status": row["status"],
+        "compute_ms": 1e3 * row["seconds"],
+        "asked_by": row["asked_by"],
+    }
 
 
 def _summary(row: sa.RowMapping) -> dict[str, Any]:

@@ -16,6 +16,14 @@ class Recorder:
     keeps = False
     """Whether what it takes can be asked for."""
 
+    def __init__(self, started_at: float) -> None:
+        """Begin.
+
+        Args:
+            started_at: when the flight began [Unix time, s].
+        """
+        self.started_at = started_at
+
     def add(self, document: Document) -> None:
         """Record a document, which is newer than all before."""
 
@@ -28,7 +36,8 @@ class FlightRecorder(Recorder):
 
     keeps = True
 
-    def __init__(self, flight_id: str, writer: Writer, clock: Clock) -> None:
+    def __init__(self, flight_id: str, writer: Writer, clock: Clock, *, started_at: float) -> None:
+        super().__init__(started_at)
         self._flight_id, self._writer, self._clock = flight_id, writer, clock
         self._number = self._lost = 0
         self._due = 0.0

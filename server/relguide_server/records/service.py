@@ -82,10 +82,11 @@ class RecordsService:
 
     def begin(self, card: FlightCard) -> Recorder:
         """Record a flight from now on."""
+        now = self._clock.now()
         if self._writer is None:
-            return Recorder()
-        self._writer.put(Began(card, self._clock.now()))
-        return FlightRecorder(card.id, self._writer, self._clock)
+            return Recorder(now)
+        self._writer.put(Began(card, now))
+        return FlightRecorder(card.id, self._writer, self._clock, started_at=now)
 
     async def saved(self) -> bool:
         """Wait until all that was begun and commanded so far is saved; false if it cannot be."""
@@ -209,13 +210,13 @@ def records_service(
     if records == "off":
         return RecordsService(clock=clock)
     run, started_at, software = secrets.token_hex(8), time.time(), version("relguide")
-    folder = Path(data) if data else user_data_path("relguide", appauthor=False)
 
     def open_store() -> "Store":
         from relguide_server.records.database import url_of
         from relguide_server.records.store import Store
 
-        return Store(url_of(database_url, folder), run=run, version=software, started_at=started_at)
+        url = url_of(database_url, _folder(data))
+        return Store(url, run=run, version=software, started_at=started_at)
 
     writer = Writer(
         open_store,
@@ -225,6 +226,23 @@ def records_service(
         clock=clock,
     )
     return RecordsService(writer, plans=record_plans, clock=clock)
+
+
+def records_outlook(*, records: str, database_url: str, data: str) -> str:
+    """What a start with these settings would do to the records, in a sentence.
+
+    Raises:
+        Unavailable: if they could not be kept.
+    """
+    if records == "off":
+        return OFF
+    from relguide_server.records.database import outlook, url_of
+
+    return outlook(url_of(database_url, _folder(data)))
+
+
+def _folder(data: str) -> Path:
+    return Path(data) if data else user_data_path("relguide", appauthor=False)
 
 
 async def records_of(connection: HTTPConnection) -> RecordsService:

@@ -39,7 +39,7 @@ def guard_viser() -> None:
 
         return serve(*arguments, process_request=admit, **options)
 
-    _infra.websockets = SimpleNamespace(  # type: ignore[attr-defined]
+    _infra.websockets = SimpleNamespace(  # type: ignore[assignment,attr-defined]
         asyncio=SimpleNamespace(server=SimpleNamespace(serve=serve_guarded)),
         datastructures=websockets.datastructures,
         exceptions=websockets.exceptions,

@@ -16,6 +16,7 @@ class Kept(Recorder):
     """Keeps documents in memory."""
 
     def __init__(self) -> None:
+        super().__init__(0.0)
         self.documents: list[Document] = []
         self.outcomes: list[Outcome] = []
 

@@ -54,7 +54,7 @@ def record(url: str, run: str, said: Connection) -> None:
         recorders = []
         for name in names:
             writer.put(Began(card(name), time.time()))
-            recorders.append(FlightRecorder(name, writer, Clock()))
+            recorders.append(FlightRecorder(name, writer, Clock(), started_at=0.0))
         if asyncio.run(writer.saved(10.0)):
             for name in names:
                 said.send((name, None))

@@ -67,7 +67,7 @@ from tests.server.records.flown_cards import card
 from tests.server.records.places import Home
 writer = Home(sys.argv[1]).writer()
 writer.put(Began(card("one"), 1e9))
-recorder = FlightRecorder("one", writer, Clock())
+recorder = FlightRecorder("one", writer, Clock(), started_at=0.0)
 documents = list(ideal_flight(duration=900.0))
 half = len(documents) // 2
 def wait_for(condition):
@@ -116,7 +116,7 @@ def test_a_server_that_stops_and_starts_again_is_caught_up_with(server: Postgres
     home = Home(server.empty_database())
     writer = home.writer()
     writer.put(Began(card("one"), 1e9))
-    recorder = FlightRecorder("one", writer, Clock())
+    recorder = FlightRecorder("one", writer, Clock(), started_at=0.0)
     documents = list(ideal_flight(duration=60.0))
     for document in documents[:400]:
         recorder.add(document)
@@ -189,3 +189,21 @@ def test_tables_of_a_newer_version_are_left_alone(url: str) -> None:
     with pytest.raises(Unavailable, match="newer version"):
         home.store()
     home.close()
+
+
+def test_what_a_start_would_do_is_said_and_not_done(url: str) -> None:
+    where = database.url_of(url, Path("unused"))
+    first = database.outlook(where)
+    assert "at the start" in first
+    assert database.outlook(where) == first
+    for revision, said in (("0001", f"tables of revision 0001, brought up to {HEAD}"),
+                           ("head", f"the tables of this version (revision {HEAD})")):  # fmt: skip
+        alembic_to(url, revision).dispose()
+        assert said in database.outlook(where)
+        assert said in database.outlook(where)
+    engine = alembic_to(url, "head")
+    with engine.begin() as connection:
+        connection.execute(sa.text("UPDATE alembic_version SET version_num = '9999'"))
+    engine.dispose()
+    with pytest.raises(Unavailable, match="newer version"):
+        database.outlook(where)

@@ -8,13 +8,17 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from datetime import datetime
 from pathlib import Path
 
 import pyarrow.parquet as pq
 import pytest
+import sqlalchemy as sa
 from relguide_server.app import create_app
 from relguide_server.flights.record_routes import _origin, _parts
 from relguide_server.planning.plans import EXAMPLE
+from relguide_server.records.exports import gives_level
+from relguide_server.records.schema import flights
 from relguide_server.records.service import records_service
 from relguide_server.settings import ServiceSettings
 
@@ -53,7 +57,9 @@ def wait_for(condition: Callable[[], object], patience: float = 10.0) -> None:
 
 
 def start(client: TestClient, **body: object) -> str:
-    answer = client.post("/api/v1/flights", json={"scenario": "ideal", "rate": 60.0, **body})
+    wanted = {"scenario": "ideal", "rate": 60.0, **body}
+    wanted = {name: value for name, value in wanted.items() if value is not None}
+    answer = client.post("/api/v1/flights", json=wanted)
     assert (answer.status_code, answer.headers["relguide-recorded"]) == (201, "yes")
     flight_id: str = answer.json()["id"]
     return flight_id
@@ -85,7 +91,7 @@ def test_a_flight_is_found_and_read(client: TestClient, tmp_path: Path) -> None:
     for search, count in (
         ("scenario=ideal&outcome=joined", 1), ("scenario=fig_6b", 0), ("outcome=flying", 0),
         (f"since={found['started_at']}", 1), (f"until={found['started_at']}", 0),
-        ("limit=1&offset=1", 0),
+        ("limit=1", 1),
     ):  # fmt: skip
         assert len(client.get(f"{base}?{search}").json()["flights"]) == count, search
     whole = client.get(f"{base}/{flight_id}/documents").json()
@@ -94,6 +100,75 @@ def test_a_flight_is_found_and_read(client: TestClient, tmp_path: Path) -> None:
     later = client.get(f"{base}/{flight_id}/documents?first=10&limit=5").json()
     assert later["documents"] == whole["documents"][10:15]
     assert later["next"] == 15
+
+
+def test_a_list_is_read_page_by_page_though_flights_begin_and_go_meanwhile(
+    client: TestClient,
+) -> None:
+    base = "/api/v1/records/flights"
+    flown = [start(client, paused=True) for _ in range(7)]
+    whole = client.get(base).json()
+    assert [one["id"] for one in whole["flights"]] == flown[::-1]
+    assert (whole["total"], whole["next"]) == (7, None)
+    first = client.get(f"{base}?limit=3&scenario=ideal").json()
+    assert (len(first["flights"]), first["total"]) == (3, 7)
+    newer = start(client, paused=True)
+    for gone in (flown[4], flown[3]):  # the last one that was listed among them
+        client.delete(f"/api/v1/flights/{gone}")
+        assert client.delete(f"{base}/{gone}").status_code == 204
+    second = client.get(f"{base}?limit=3&scenario=ideal&cursor={first['next']}").json()
+    assert [one["id"] for one in first["flights"]] == flown[:3:-1]
+    assert [one["id"] for one in second["flights"]] == flown[2::-1]
+    assert (second["total"], second["next"]) == (6, None)
+    assert client.get(f"{base}?limit=1").json()["flights"][0]["id"] == newer
+
+
+def test_flights_that_began_at_once_are_each_listed_once(client: TestClient) -> None:
+    store = client.app.state.records.reading()
+    flown = {start(client, paused=True) for _ in range(5)}
+    with store.engine.begin() as connection:
+        connection.execute(sa.update(flights).values(started_at=1e9 + 0.1))
+    seen, cursor = [], ""
+    while cursor is not None:
+        page = client.get(f"/api/v1/records/flights?limit=2{cursor and f'&cursor={cursor}'}").json()
+        seen += [one["id"] for one in page["flights"]]
+        cursor = page["next"]
+    assert sorted(seen) == sorted(flown)
+
+
+@pytest.mark.parametrize(
+    "cursor",
+    ["", "x", "e30", "WzFd", "WzEuMCwiYS8iLDBd", "WzEuMCwiXHUwMDAwIiwwXQ", "%C3%A9", "A" * 201],
+)
+def test_what_is_no_cursor_is_refused(client: TestClient, cursor: str) -> None:
+    for name in ("flights", "plans"):
+        answer = client.get(f"/api/v1/records/{name}?cursor={cursor}")
+        assert answer.status_code == 422
+        assert answer.json()["detail"].startswith("cursor: ")
+
+
+def test_a_client_that_has_what_is_on_record_is_not_sent_it_again(client: TestClient) -> None:
+    flight_id = fly_whole(client)
+    one = f"/api/v1/records/flights/{flight_id}"
+    forms = [f"{one}/export?format={form}" for form in ("jsonl", "csv", "parquet")]
+    placed = [f"{one}/export?format={form}&lat_deg=1&lon_deg=2" for form in ("geojson", "czml")]
+    lists = ["/api/v1/records/flights", "/api/v1/records/plans"]
+    paths = [*lists, one, f"{one}/documents", *forms, *placed]
+    tags = {}
+    for path in paths:
+        whole = client.get(path)
+        tag = tags[path] = whole.headers["etag"]
+        assert (whole.status_code, whole.headers["cache-control"]) == (200, "no-cache")
+        for has in (tag, f'"other", W/{tag}', "*"):
+            again = client.get(path, headers={"If-None-Match": has})
+            assert (again.status_code, again.content, again.headers["etag"]) == (304, b"", tag)
+        assert client.get(path, headers={"If-None-Match": '"other"'}).content == whole.content
+        assert client.head(path, headers={"If-None-Match": tag}).status_code == 304
+    assert len(set(tags.values())) == len(paths)
+    flying = start(client, paused=True)
+    listed = client.get(lists[0], headers={"If-None-Match": tags[lists[0]]})
+    assert listed.status_code == 200
+    assert "etag" not in client.get(f"/api/v1/records/flights/{flying}/export").headers
 
 
 @pytest.mark.parametrize(
@@ -131,13 +206,15 @@ def test_commands_are_on_record_before_they_are_acknowledged(client: TestClient)
 def test_plans_asked_for_are_on_record_so_many_a_second(client: TestClient) -> None:
     for _ in range(20):
         client.post("/api/v1/plans", json=EXAMPLE)
-    wait_for(lambda: client.get("/api/v1/records/plans").json()["plans"])
-    kept = client.get("/api/v1/records/plans?status=planned").json()["plans"]
-    assert kept[0]["situation"] == EXAMPLE
-    assert len(kept) < 20
     lost = "relguide_records_plans_lost_total"
-    text = client.get("/metrics").text
-    assert f"{lost} {20 - len(kept)}" in text
+
+    def found() -> list[dict]:
+        return client.get("/api/v1/records/plans?status=planned").json()["plans"]
+
+    # saved in several batches
+    wait_for(lambda: f"{lost} {20 - len(found())}" in client.get("/metrics").text)
+    assert found()[0]["situation"] == EXAMPLE
+    assert 0 < len(found()) < 20
 
 
 def test_a_recording_is_what_was_flown_and_flies_again(client: TestClient, tmp_path: Path) -> None:
@@ -263,6 +340,61 @@ async def exported(client: TestClient, flight_id: str) -> bytes:
     first = await anext(parts)
     assert client.delete(f"/api/v1/records/flights/{flight_id}").status_code == 204
     return first + b"".join([part async for part in parts])
+
+
+def test_a_flight_says_when_it_began_what_flies_it_and_why_it_ended(client: TestClient) -> None:
+    flight_id = start(client, rate=5.0)
+    path = f"/api/v1/flights/{flight_id}"
+    flying, kept = client.get(path).json(), record_of(client, flight_id)
+    assert (flying["outcome"], flying["started_at"]) == ("", kept["started_at"])
+    assert abs(datetime.fromisoformat(flying["started_at"]).timestamp() - time.time()) < 60.0
+    with client.websocket_connect(flying["stream_url"], subprotocols=[PROTOCOL]) as stream:
+        first, *later = (stream.receive_json() for _ in range(4))
+    origin = {"started_at": flying["started_at"], "version": flying["version"]}
+    assert first.items() >= origin.items()
+    assert first["documents"][0]["kind"] == "flight_started"
+    assert not any(name in tick for tick in later for name in origin)
+    client.post(f"{path}/commands", json={"command": "set_rate", "rate": 60.0})
+    wait_for(lambda: client.get(path).json()["ended"])
+    assert client.get(path).json()["outcome"] == "joined"
+    time.sleep(0.01)  # a replay begins later
+    again = client.post(f"/api/v1/records/flights/{flight_id}/replay", json={"rate": 60.0}).json()
+    assert again["started_at"] == flying["started_at"]
+
+
+def test_exports_leave_out_a_level_that_nobody_gave(client: TestClient) -> None:
+    def exported(**changes: object) -> tuple[list[dict], list[dict], list[list[float]]]:
+        flight_id = start(client, scenario=None, situation={**EXAMPLE, **changes})
+        wait_for(lambda: record_of(client, flight_id)["outcome"] == "joined")
+        path = f"/api/v1/records/flights/{flight_id}/export"
+        rows = list(csv.DictReader(io.StringIO(client.get(f"{path}?format=csv").text)))
+        table = pq.read_table(io.BytesIO(client.get(f"{path}?format=parquet").content))
+        tracks = client.get(f"{path}?format=geojson&lat_deg=48&lon_deg=2").json()
+        return rows, table.to_pylist(), tracks["features"][0]["geometry"]["coordinates"]
+
+    rows, table, points = exported()
+    assert {row["altitude_m"] for row in rows} == {""}
+    assert {row["altitude_m"] for row in table} == {None}
+    assert {len(point) for point in points} == {2}
+    level = {"altitude_m": 9449.0}
+    both = {name: {**EXAMPLE[name], **level} for name in ("pursuer", "leader")}
+    rows, table, points = exported(**both)
+    assert "" not in {row["altitude_m"] for row in rows}
+    assert None not in {row["altitude_m"] for row in table}
+    assert {len(point) for point in points} == {3}
+
+
+def test_what_gives_a_level_is_told_from_what_describes_the_air() -> None:
+    profile = {"profile": [{"altitude_m": 9449.0, "from_deg": 0, "speed_mps": 5}]}
+    climb = {"level_change": {"to_altitude_m": 9449.0, "rate_mps": 8}}
+    for said, gives in (
+        ({"situation": {**EXAMPLE, "air": profile, "believed_air": profile}}, False),
+        ({"situation": {**EXAMPLE, "traffic": [{"ident": "A", "altitude_m": None}]}}, False),
+        ({"situation": {"leader": {"intent": [climb]}}}, True),
+        ([{"command": "leader_level", "altitude_m": 9449.0}], True),
+        ({"orders": [{"t_s": 1.0, "leader_level_m": 9449.0}]}, True),
+    ):
+        assert gives_level(said) is gives
 
 
 def test_a_replay_ends_where_the_recording_does(client: TestClient) -> None:

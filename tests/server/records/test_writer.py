@@ -58,7 +58,7 @@ def row_of(store: Store, flight_id: str) -> sa.RowMapping:
 
 def begin(writer: Writer, flight_id: str = "one") -> FlightRecorder:
     writer.put(Began(card(flight_id), 1e9))
-    return FlightRecorder(flight_id, writer, Clock())
+    return FlightRecorder(flight_id, writer, Clock(), started_at=0.0)
 
 
 def thinned(documents: list[Document]) -> list[Document]:
