@@ -46,6 +46,7 @@ TABLE = {
     ("GET", "/readyz"): "open",
     ("GET", "/metrics"): "view",
     ("GET", "/"): "view",
+    ("GET", "/atc"): "view",
     ("GET", "/docs"): "view",
     ("GET", "/docs/stream"): "view",
     ("GET", "/docs/swagger-ui.css"): "view",
