@@ -45,7 +45,7 @@ STOPPING = "The service is stopping: it may be back in a moment."
 INTERRUPTED = "The process that worked on this ended before its time: try again."
 THREADS = 4
 """Hands where jobs are done by threads."""
-PULSE = 1.0
+PULSE = 0.1
 """A hand that answered so short a time ago is not asked again whether it does [s]."""
 TO_ANSWER = 3.0
 """How long a hand that has nothing else to do may take to answer [s]."""
