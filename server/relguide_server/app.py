@@ -107,7 +107,9 @@ def create_app(
     records = records or RecordsService(clock=Clock())
     # other processes cannot be given a planner that has no name: then threads do the work
     name = "" if planner else settings.planner
-    workers = WorkerPool(settings.workers if name else 0, queue=settings.queue)
+    workers = WorkerPool(
+        settings.workers if name else 0, queue=settings.queue, note_wait=metrics.note_wait
+    )
     planner = planner or make_planner(settings.planner)
     quick = takes_deadline(planner)
     if name != "exact":
@@ -316,6 +318,9 @@ def _measure(fleet: LiveFleet, workers: WorkerPool) -> Iterator[Metric]:
         for kind, number in numbers.items():
             family.add_metric([kind], number)
         yield family
+    yield CounterMetricFamily(
+        "relguide_worker_cpu_seconds", "Processor time of workers.", value=workers.processor_time
+    )
     yield CounterMetricFamily(
         "relguide_workers_killed", "Workers ended and replaced.", value=workers.killed
     )

@@ -5,6 +5,8 @@ from functools import partial
 from math import inf
 from typing import Any
 
+from uvicorn._types import ASGISendEvent
+from uvicorn.protocols.utils import ClientDisconnected
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.frames import Frame
 from websockets.http11 import Request
@@ -77,6 +79,15 @@ class Socket(WebSocketsSansIOProtocol):
         if self.response.status_code == 101:
             self.scope["extensions"][KEEP] = {"keep": partial(self._shares.keep, self)}
 
+    async def send(self, message: ASGISendEvent) -> None:
+        """Send, unless it has been closed here, which the app learns of like any other end.
+
+        Uvicorn closes one whose client answers no pings, and takes what is sent then for a mistake.
+        """
+        if self.close_sent and message["type"] == "websocket.send":
+            raise ClientDisconnected
+        await super().send(message)
+
     def shed(self) -> None:
         """End it, to make room for another client's."""
         if self.handshake_complete and not self.close_sent:
@@ -128,5 +139,6 @@ class Socket(WebSocketsSansIOProtocol):
         gained = A_SECOND * (now - self._counted_at)
         self._left, self._counted_at = min(self._left + gained, AT_ONCE) - count, now
         if self._left < 0.0 and not self.transport.is_closing():
+            self._shares.cut_off += 1
             self.transport.abort()
         return self._left >= 0.0
