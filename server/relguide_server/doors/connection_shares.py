@@ -54,7 +54,7 @@ class ConnectionShares:
             proxies: says of an address whether it speaks for many clients, and may have all.
             now: a clock.
         """
-        self._most, self._share = most, max(most // 2, 1)
+        self.most, self._share = most, max(most // 2, 1)
         self._proxies = proxies
         self._guests: dict[str, dict[Guest, None]] = {}
         self._count = 0
@@ -64,7 +64,7 @@ class ConnectionShares:
         self._barred = SeldomLine(now)
         self.refused = {"share": 0, "full": 0, "hang_ups": 0}
         """Connections that were not let in, by what was exhausted."""
-        self.shed = self.hang_ups = 0
+        self.shed = self.hang_ups = self.cut_off = 0
 
     def is_open_to(self, host: str) -> bool:
         """Whether a new connection from an address is to be heard at all."""
@@ -92,10 +92,10 @@ class ConnectionShares:
             self._told.add(guest)
             self.refused["share"] += 1
             return TOO_MANY_OF_YOURS.format(most=self._share)
-        if self._count >= self._most and not self._make_room(guest.whose):
+        if self._count >= self.most and not self._make_room(guest.whose):
             self._told.add(guest)
             self.refused["full"] += 1
-            return TOO_MANY.format(most=self._most)
+            return TOO_MANY.format(most=self.most)
         self._seat(guest)
         return ""
 
@@ -139,6 +139,9 @@ class ConnectionShares:
         yield refused
         yield CounterMetricFamily(
             "relguide_connections_shed", "Idle connections ended to make room.", self.shed
+        )
+        yield CounterMetricFamily(
+            "relguide_sockets_cut_off", "WebSockets cut off for how much they sent.", self.cut_off
         )
         yield CounterMetricFamily(
             "relguide_hang_ups", "Connections left before they were answered.", self.hang_ups

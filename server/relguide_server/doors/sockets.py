@@ -139,5 +139,6 @@ class Socket(WebSocketsSansIOProtocol):
         gained = A_SECOND * (now - self._counted_at)
         self._left, self._counted_at = min(self._left + gained, AT_ONCE) - count, now
         if self._left < 0.0 and not self.transport.is_closing():
+            self._shares.cut_off += 1
             self.transport.abort()
         return self._left >= 0.0

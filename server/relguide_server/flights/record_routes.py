@@ -51,6 +51,7 @@ from relguide_server.records.cursors import place_of
 from relguide_server.records.entries import Outcome, Place, RecordSearch
 from relguide_server.records.recorder import Recorder
 from relguide_server.records.service import RecordsOf, RecordsService
+from relguide_server.shares.clients import client_of
 
 if TYPE_CHECKING:  # with SQLAlchemy: a service that records nothing does not load it
     from relguide_server.records.store import Store
@@ -257,6 +258,7 @@ async def replay_flight(
         record=lambda _: Recorder(datetime.fromisoformat(about["started_at"]).timestamp()),
         replay=True,
         owner=owner_of(request),
+        client=client_of(request.scope),
         anchor=_anchor(about["request"]),
         seed=about["seed"],
     )
