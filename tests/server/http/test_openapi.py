@@ -224,6 +224,9 @@ def test_an_answer_that_is_sent_again_says_so() -> None:
         "post /api/v1/flights/{flight_id}/commands",
         "post /api/v1/simulations",
         "post /api/v1/records/flights/{flight_id}/replay",
+        "post /api/v1/clearances",
+        "post /api/v1/clearances/{clearance_id}/answers",
+        "post /api/v1/clearances/{clearance_id}/replies",
     }
 
 
