@@ -126,6 +126,12 @@ class ConnectionShares:
         if not self._proxies(host):
             self._lose_patience(client_at(host))
 
+    def note_flood(self, host: str) -> None:
+        """That a client was cut off for how much it sent: it is not heard for a while."""
+        self.cut_off += 1
+        if not self._proxies(host):
+            self._lose_patience(client_at(host), 2.0 * HANG_UPS)
+
     def measure(self) -> Iterator[Metric]:
         """What is counted here, for Prometheus."""
         yield GaugeMetricFamily(
@@ -147,9 +153,9 @@ class ConnectionShares:
             "relguide_hang_ups", "Connections left before they were answered.", self.hang_ups
         )
 
-    def _lose_patience(self, client: str) -> None:
-        """Count one more that was in vain, but no more than are forgiven within a second."""
-        self._patience.take(client, min(1.0, HANG_UPS + self._patience.left(client)))
+    def _lose_patience(self, client: str, times: float = 1.0) -> None:
+        """Count some more that were in vain, but no more than are forgiven within a second."""
+        self._patience.take(client, min(times, HANG_UPS + self._patience.left(client)))
 
     def _has_its_share(self, client: str) -> bool:
         return len(self._guests.get(client, ())) >= self._share

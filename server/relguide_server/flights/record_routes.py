@@ -227,7 +227,13 @@ async def list_documents(
     status_code=201,
     summary="Fly a recording again",
     responses={
-        **response(201, "It is in the air.", schema_of(FlightStatus), headers=("Location",)),
+        **response(
+            201,
+            "It is in the air.",
+            schema_of(FlightStatus),
+            headers=("Location",),
+            leads_to=("show_flight", "command_flight", "end_flight"),
+        ),
         **problem_responses(*BODY, *READING, "conflict", "too-many-flights", "mistake"),
     },
     openapi_extra=request_body(schema_of(NewReplay), {"rate": 10.0}),

@@ -127,6 +127,7 @@ async def list_scenarios(request: Request, catalogue: CatalogueOf) -> Response:
             "It is in the air.",
             schema_of(FlightStatus),
             headers=("Location", "Relguide-Recorded"),
+            leads_to=("show_flight", "command_flight", "end_flight", "show_recorded"),
         ),
         **problem_responses(*BODY, "too-many-flights", "mistake", "preparing"),
     },

@@ -143,7 +143,7 @@ async def _relay(websocket: WebSocket, flight: LiveFlight) -> None:
             upward.cancel()
         for task in done:
             refused = task.result()  # a mistake of ours in there is raised here
-            if refused is not None:
+            if refused is not None and websocket.application_state is WebSocketState.CONNECTED:
                 metrics: Metrics = websocket.app.state.metrics
                 why = "too_fast" if refused is TOO_FAST else "not_passed_on"
                 metrics.frames_refused.labels(why).inc()

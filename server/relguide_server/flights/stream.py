@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from relguide.contract.upstream import Upstream
 from relguide_server.doors.sockets import SHED
@@ -100,6 +100,8 @@ class StreamClient:
                 task.result()  # a mistake of ours in there is raised here
         except UnwelcomeFrame as unwelcome:
             self._metrics.frames_refused.labels(unwelcome.why).inc()
+            if websocket.application_state is not WebSocketState.CONNECTED:
+                return  # it was cut off meanwhile
             with suppress(WebSocketDisconnect):
                 await websocket.close(unwelcome.code, unwelcome.reason)
 

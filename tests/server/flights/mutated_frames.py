@@ -153,5 +153,5 @@ class Mistakes(logging.Handler):
 
 if __name__ == "__main__":
     logging.getLogger().addHandler(mistakes := Mistakes())
-    print(asyncio.run(send_all(int(sys.argv[1]), int(sys.argv[2]) if sys.argv[2:] else 0)))
-    print(f"{len(mistakes.found)} mistakes in the log")
+    ends = asyncio.run(send_all(int(sys.argv[1]), int(sys.argv[2]) if sys.argv[2:] else 0))
+    sys.stdout.write(f"{ends}\n{len(mistakes.found)} mistakes in the log\n")

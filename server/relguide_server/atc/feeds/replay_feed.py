@@ -39,7 +39,7 @@ async def play(file: str, plane: LocalPlane | None, state: FeedState) -> None:
             state.messages += 1
             state.take([replace(one, t=begun + one.t) for one in found], clock())
     except (OSError, ValueError) as error:
-        state.fault = f"{file} cannot be played: {error}"
+        state.fault = f"It cannot be played: {error}"
     state.over = True
 
 
