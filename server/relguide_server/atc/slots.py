@@ -17,7 +17,8 @@ def with_its_place(
     """What automation finds of a request, its place behind the leader considered.
 
     A place that is taken makes it stand by until whoever has it is over, and says which one is
-    free; that both would come too close there goes without saying. Places nearer than the minimum between aircraft are one place.
+    free; that both would come too close there goes without saying. Places nearer than the minimum
+    between aircraft are one place.
 
     Args:
         case: what was validated.

@@ -63,8 +63,9 @@ def validated(
 ) -> dict[str, Any]:
     """The clearance that was asked for, once automation has said what it finds."""
     end = time.monotonic() + 10.0
-    while not (found := client.get(asked.headers["location"], headers=headers).json())["validation"]:
+    while True:
+        found: dict[str, Any] = client.get(asked.headers["location"], headers=headers).json()
+        if found["validation"]:
+            return found
         assert time.monotonic() < end
         time.sleep(0.01)
-    said: dict[str, Any] = found
-    return said

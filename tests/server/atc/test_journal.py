@@ -1,9 +1,11 @@
-"""The controllers' stream: numbered, resumed where it broke, a snapshot where too much is missed."""
+"""The controllers' stream: numbered, resumed where it broke, or a snapshot."""
 
 import asyncio
 import json
+from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 import httpx2 as httpx
@@ -134,7 +136,7 @@ def test_a_frame_is_of_the_contract() -> None:
     assert (read.number, read.snapshot, len(read.documents)) == (9, True, 2)
 
 
-# -- on a real port ---------------------------------------------------------------------------------
+# -- on a real port -------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -228,8 +230,7 @@ def test_clients_only_listen(address: str) -> None:
     with listening(address) as socket:
         socket.send('{"kind":"give_back"}')
         with pytest.raises(ConnectionClosedError) as closed:
-            while True:
-                socket.recv(5.0)
+            deque(iter(partial(socket.recv, 5.0), None))
     assert closed.value.rcvd is not None
     assert (closed.value.rcvd.code, closed.value.rcvd.reason) == (NOT_UNDERSTOOD, ONLY_LISTEN)
 
