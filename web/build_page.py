@@ -18,8 +18,8 @@ from unpack_font import unpack_font
 
 NO_ANSWER = 300.0
 """How long fetching the page's packages may take [s]."""
-INPUTS = ("package.json", "package-lock.json", ".npmrc", "index.html", "vite.config.ts",
-          "tsconfig.json", "unpack_font.py", "src", "public")  # fmt: skip
+INPUTS = ("package.json", "package-lock.json", ".npmrc", "index.html", "atc.html",
+          "vite.config.ts", "tsconfig.json", "unpack_font.py", "src", "public")  # fmt: skip
 """What the page is made of, within `web/`."""
 BUILDS = ("production", "picture", "element")
 """Vite's modes: the page first, then what lies beside it in `dist/embed`."""

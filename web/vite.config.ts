@@ -28,7 +28,12 @@ function bundle(entry: string, fileName: string): UserConfig {
 
 const page: UserConfig = {
   ...common,
-  build: { target: "es2023", sourcemap: false, modulePreload: { polyfill: false } },
+  build: {
+    target: "es2023",
+    sourcemap: false,
+    modulePreload: { polyfill: false },
+    rolldownOptions: { input: ["index.html", "atc.html"] },
+  },
   server: {
     proxy: {
       "/api": { target: server, ws: true },

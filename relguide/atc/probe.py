@@ -99,7 +99,7 @@ def probe(
     fanned = np.isfinite(halves)
     if fanned.any():
         _in_fans(found, ours, theirs, edges, kept, growth, halves, vertical)
-        unseen = np.isinf(found.least) & (found.margin < 0.0)
+        unseen = np.isinf(found.least) & (found.margin < SHOWN)
         everywhere = np.repeat(unseen[:, None], len(edges) - 1, axis=1)
         straight_on = _on_tracks(
             pieces_of(ours, theirs, edges, everywhere, vertical), kept, growth, len(others)

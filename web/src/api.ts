@@ -156,7 +156,7 @@ async function download(path: string, patience: number): Promise<Answer<Blob>> {
   }
 }
 
-/** Asks the service for JSON; `path` is relative to the page. */
+/** Asks the service for JSON; `path` is relative to the page, `patience` in ms. */
 export async function request<T>(
   method: string,
   path: string,

@@ -1,6 +1,6 @@
 /** Alerts that are heard: a chime for a caution, and for a warning one a second until it is over. */
 
-import { effect } from "@preact/signals";
+import { effect, type ReadonlySignal } from "@preact/signals";
 import type { Session } from "./session";
 import type { Notice } from "./store/notices";
 
@@ -11,8 +11,8 @@ const PITCH = { caution: 660, warning: 990 } as const;
 const LENGTH = 0.35;
 const LOUDNESS = 0.15;
 
-/** Sounds what a session's picture says; browsers allow it after the first click or key. */
-export function soundAlerts(session: Session): void {
+/** How a level is sounded, where `isOn`; browsers allow it after the first click or key. */
+export function createChime(isOn: ReadonlySignal<boolean>): (level: keyof typeof PITCH) => void {
   let context: AudioContext | null = null;
   const wake = () => {
     context ??= new AudioContext();
@@ -20,9 +20,8 @@ export function soundAlerts(session: Session): void {
   };
   addEventListener("pointerdown", wake, { once: true });
   addEventListener("keydown", wake, { once: true });
-
-  const chime = (level: keyof typeof PITCH) => {
-    if (context === null || !session.sound.value) return;
+  return (level) => {
+    if (context === null || !isOn.value) return;
     const [tone, volume] = [context.createOscillator(), context.createGain()];
     tone.frequency.value = PITCH[level];
     volume.gain.setValueAtTime(LOUDNESS, context.currentTime);
@@ -31,7 +30,11 @@ export function soundAlerts(session: Session): void {
     tone.start();
     tone.stop(context.currentTime + LENGTH);
   };
+}
 
+/** Sounds what a session's picture says. */
+export function soundAlerts(session: Session): void {
+  const chime = createChime(session.sound);
   let heard = "";
   let timer: ReturnType<typeof setInterval> | null = null;
   effect(() => {

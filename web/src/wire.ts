@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-38cc71cee134";
+export const PROTOCOL = "relguide-a7258bdd8f3f";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -1052,6 +1052,8 @@ export interface FlownSituationBody {
   traffic?: (LocalTraffic | GeodeticTraffic)[];
   cells?: (DiscCell | PolygonCell)[];
   id?: string | number;
+  pursuer_ident?: string;
+  leader_ident?: string;
   air?: AirBody | null;
   believed_air?: AirBody | null;
   surveillance?: SurveillanceBody | null;

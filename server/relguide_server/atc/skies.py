@@ -224,14 +224,14 @@ class Skies:
 
         Args:
             flight: which.
-            ident: the pursuer's; empty: the first link's.
+            ident: the pursuer's, in its flight or its sky; empty: the first link's.
 
         Raises:
             ContractError: if nobody of that name pursues anybody.
         """
         links: Sequence[LinkCard] = [one for s in flight.history.started for one in s.links]
         for link in links:
-            if ident in ("", link.pursuer):
+            if ident in ("", link.pursuer, self.name(flight, link.pursuer)):
                 return link
         named = " or ".join(link.pursuer for link in links)
         raise ContractError([("aircraft", f"must be a pursuer of this flight: {named}.")])

@@ -44,6 +44,8 @@ SHORTEST = 16
 """Characters of a token, at least."""
 COOKIE = "relguide_token"
 SAFE = ("GET", "HEAD", "OPTIONS")
+PAGES = ("/", "/atc")
+"""Opened with `?token=…`, they are given the cookie."""
 OPEN = ("/healthz", "/readyz")
 """Answered without a token."""
 CALCULATIONS = ("/api/v1/plans", "/api/v1/areas", "/api/v1/simulations")
@@ -171,7 +173,7 @@ class Access:
 
     def _judge_token(self, scope: Scope, headers: Headers) -> Response | None:
         path = path_of(scope)
-        if path == "/" and scope["type"] == "http":
+        if path in PAGES and scope["type"] == "http":
             shown = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
             if self._role(shown) is not None:
                 return _remember(shown, scope)
@@ -184,8 +186,9 @@ class Access:
         if needed not in MAY[role]:
             allowed = " or ".join(one for one in ROLES if needed in MAY[one])
             return _refuse(scope, 403, TOO_LITTLE.format(role=role, allowed=allowed))
-        owner = "" if "command_all" in MAY[role] else sha256(token.encode()).hexdigest()
-        _note(scope, role, owner)
+        shown = sha256(token.encode()).hexdigest()
+        _note(scope, role, "" if "command_all" in MAY[role] else shown)
+        scope["state"]["token"] = shown  # for `client_of`
         return None
 
     def _role(self, token: str) -> Role | None:
@@ -293,9 +296,9 @@ def _remember(token: str, scope: Scope) -> Response:
 
     What was kept over https, browsers send over https alone.
     """
-    page, safe = f"{root_of(scope)}/", scope["scheme"] == "https"
-    answer = RedirectResponse(page, 303)
-    answer.set_cookie(COOKIE, token, path=page, secure=safe, httponly=True, samesite="strict")
+    root, safe = root_of(scope), scope["scheme"] == "https"
+    answer = RedirectResponse(root + path_of(scope), 303)
+    answer.set_cookie(COOKIE, token, path=f"{root}/", secure=safe, httponly=True, samesite="strict")
     return answer
 
 

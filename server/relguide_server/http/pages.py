@@ -1,4 +1,4 @@
-"""The built cockpit page and the API's page, both without any other machine."""
+"""The built pages of cockpit and controller, and the API's page, without any other machine."""
 
 import gzip
 import mimetypes
@@ -15,7 +15,7 @@ from pathlib import Path
 from fastapi import APIRouter, Request
 from fastapi.openapi.docs import get_swagger_ui_html
 from starlette.datastructures import Headers
-from starlette.responses import HTMLResponse, Response
+from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from relguide_server.http.errors import Refusal
@@ -25,6 +25,8 @@ from relguide_server.http.proxy import path_of, root_of
 PACKAGE = Path(__file__).parents[1]
 PAGE_FOLDERS = (PACKAGE / "page", PACKAGE.parents[1] / "web" / "dist")
 """Where the built page is: in the package when installed, in the source tree otherwise."""
+PAGES = {"/": "/index.html", "/atc": "/atc.html"}
+"""The cockpit and the controller's page, by their addresses."""
 FOR_EVER = "public, max-age=31536000, immutable"
 WORTH_PACKING = 1024
 """Smaller files [bytes] are not compressed."""
@@ -58,7 +60,7 @@ class _File:
 
 
 class Page:
-    """ASGI middleware: answers with files of the built page; everything else goes on to the app.
+    """ASGI middleware: answers with files of the built pages; everything else goes on to the app.
 
     They are kept in memory, and read again when the page has been built again.
     """
@@ -75,12 +77,14 @@ class Page:
             await self.app(scope, receive, send)
             return
         path = path_of(scope)
-        if path == "/" or self._read_from is None:
+        if path in PAGES or self._read_from is None:
             self._refresh()
-        found = self._files.get("/index.html" if path == "/" else path)
-        if found is not None:
+        found = self._files.get(PAGES.get(path, path))
+        if path == "/atc/":  # what the page names is beside it, not below it
+            await RedirectResponse(f"{root_of(scope)}/atc")(scope, receive, send)
+        elif found is not None:
             await _answer(found, Headers(scope=scope))(scope, receive, send)
-        elif path == "/":
+        elif path in PAGES:
             folders = escape(", ".join(map(str, self.folders)))
             await HTMLResponse(NOT_BUILT.format(folders=folders), 503)(scope, receive, send)
         else:

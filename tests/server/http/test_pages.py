@@ -36,6 +36,20 @@ def test_index_is_always_asked_for_anew_and_assets_never(dist: Path) -> None:
     assert "javascript" in asset.headers["content-type"]
 
 
+def test_the_controllers_page_has_an_address_of_its_own(dist: Path) -> None:
+    client = client_of(dist)
+    assert client.get("/atc").status_code == 503
+    (dist / "atc.html").write_text("<!doctype html><title>atc</title>")
+    client = client_of(dist)
+    page = client.get("/atc")
+    assert page.status_code == 200
+    assert "atc" in page.text
+    assert page.headers["cache-control"] == "no-cache"
+    # what it names is relative to the root
+    climbed = client.get("/atc/", follow_redirects=False)
+    assert (climbed.status_code, climbed.headers["location"]) == (307, "/atc")
+
+
 def test_what_is_made_for_other_pages_may_be_loaded_by_them(dist: Path) -> None:
     (dist / "embed").mkdir()
     (dist / "embed" / "relguide-nd.js").write_text("let a = 1;\n" * 500)

@@ -1,0 +1,76 @@
+/** All that is written on the map: no text over another, each tied to what it belongs to. */
+
+import { useRef } from "preact/hooks";
+import { type Label, LINE_HEIGHT, type Placement, placeLabels } from "../../nd/labels";
+import { ink } from "../../nd/style";
+import { within } from "../../nd/view";
+import { straightOn } from "../closest";
+import type { Station } from "../station";
+import { aircraftLabels, VECTOR } from "./aircraft";
+import { airspaceLabels } from "./ground";
+import { pairLabel } from "./pair";
+import { joinLabel, routePoints } from "./routes";
+import { glassOf, toPoint, typeOf } from "./view";
+
+/** Half of an aircraft's symbol [px]: no text over it. */
+const SYMBOL = 9;
+
+export function Labels({ station }: { station: Station }) {
+  const before = useRef<ReadonlyMap<string, Placement>>(new Map());
+  const { view, store } = station;
+  const glass = glassOf(view);
+  const [chosen, ...others] = aircraftLabels(station);
+  const labels = [chosen, pairLabel(station), joinLabel(station), ...others]
+    .concat(airspaceLabels(station))
+    .filter((each) => each !== null && each !== undefined);
+  const boxes = store.sky.value.aircraft.map((each) => {
+    const { x, y } = toPoint(view, each);
+    return { x: x - SYMBOL, y: y - SYMBOL, width: 2 * SYMBOL, height: 2 * SYMBOL };
+  });
+  const vectors = store.sky.value.aircraft.map((each) =>
+    toPoint(view, straightOn(each, VECTOR / 2)),
+  );
+  const placed = placeLabels(
+    labels,
+    {
+      isSeen: (point) => within(glass, point),
+      boxes,
+      points: [...vectors, ...routePoints(station)],
+    },
+    before.current,
+  );
+  before.current = placed;
+  return (
+    <g class="atc-labels" font-size={typeOf(view)}>
+      {labels.map((label) => {
+        const place = placed.get(label.id);
+        return place === undefined ? null : <Written key={label.id} label={label} place={place} />;
+      })}
+    </g>
+  );
+}
+
+function Written({ label, place }: { label: Label; place: Placement }) {
+  const { box } = place;
+  const edge = {
+    x: Math.min(Math.max(0, box.x), box.x + box.width),
+    y: Math.min(Math.max(0, box.y), box.y + box.height),
+  };
+  return (
+    <g transform={`translate(${label.at.x.toFixed(1)} ${label.at.y.toFixed(1)})`}>
+      <path class="tie" d={`M0 0L${edge.x.toFixed(1)} ${edge.y.toFixed(1)}`} />
+      <text data-label={label.id}>
+        {label.lines.map(({ text, colour }, k) => (
+          <tspan
+            key={text}
+            x={box.x.toFixed(1)}
+            y={(box.y + (k + 0.82) * label.size * LINE_HEIGHT).toFixed(1)}
+            fill={ink(colour)}
+          >
+            {text}
+          </tspan>
+        ))}
+      </text>
+    </g>
+  );
+}
