@@ -23,8 +23,8 @@ interface Pair {
 /** The second and the third cross; the fifth is above all others. */
 const PAIRS: readonly Pair[] = [
   { leader: [-60, 45, 95], pursuer: [9, 8, 25], spacing: 6, level: LEVEL },
-  { leader: [-72, -28, 60], pursuer: [10, -7, -20], spacing: 6, level: LEVEL },
-  { leader: [2, -56, 330], pursuer: [9, 8, 25], spacing: 7, level: LEVEL },
+  { leader: [-37, -28, 60], pursuer: [10, -7, -20], spacing: 6, level: LEVEL },
+  { leader: [2, -38, 330], pursuer: [9, 8, 25], spacing: 7, level: LEVEL },
   { leader: [75, 62, 200], pursuer: [10, -8, -25], spacing: 6, level: LEVEL },
   { leader: [88, -30, 290], pursuer: [9, 7, 20], spacing: 8, level: LEVEL + 610 },
 ];
