@@ -196,8 +196,8 @@ container: .make/dev
 .PHONY: lock
 lock: .make/dev
 	@$(PIP) install --quiet uv
-	@$(BIN)/uv pip compile pyproject.toml --extra serve --extra postgres --python-version 3.12 \
-		--python-platform linux --generate-hashes --upgrade --quiet --no-header \
+	@$(BIN)/uv pip compile pyproject.toml --extra serve --extra postgres --extra atc \
+		--python-version 3.12 --python-platform linux --generate-hashes --upgrade --quiet --no-header \
 		--no-emit-index-url --no-emit-find-links --output-file requirements.lock
 
 .PHONY: clean

@@ -40,7 +40,7 @@ def test_the_lock_is_what_the_service_needs_by_hash_and_without_torch() -> None:
     pinned = dict(re.findall(r"^([\w.-]+)==(\S+)", LOCK, re.MULTILINE))
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     extras = project["optional-dependencies"]
-    for line in [*project["dependencies"], *extras["serve"], *extras["postgres"]]:
+    for line in [*project["dependencies"], *extras["serve"], *extras["postgres"], *extras["atc"]]:
         wanted = Requirement(line)
         name = canonicalize_name(wanted.name)
         assert name in pinned, f"make lock: {name} is missing"

@@ -32,6 +32,8 @@ ID = "3f2a9c0d71be"
 WHEN = "2026-11-22T09:30:00.000+00:00"
 VARYING = {"compute_ms": 0.09, "wall_s": 0.8, "bytes": 1800, "processes": 2, "age_s": 0.4}
 """What no two runs have alike."""
+SHOWN = 6
+"""Numbers of a column, at most."""
 GRID = {"columns": 4, "rows": 4, "width_m": 60e3, "height_m": 60e3}
 STRAIGHT = {**EXAMPLE, "leader": {**EXAMPLE["leader"], "intent": []}}
 
@@ -71,6 +73,17 @@ def ask(client: TestClient) -> dict[str, Any]:
             f"{flight}/commands", json={"command": "leader_heading", "heading_deg": 135.0}
         ).json(),
     }
+    asked = client.post("/api/v1/clearances", json={"flight_id": started["id"]}).json()
+    clearance = f"/api/v1/clearances/{asked['id']}"
+    found |= {
+        "ask_clearance": asked,
+        "show_clearance": _wait_for(client, clearance, lambda got: got["state"] == "accepted"),
+        "list_clearances": client.get("/api/v1/clearances").json(),
+        "reply_clearance": client.post(f"{clearance}/replies", json={"reply": "WILCO"}).json(),
+        "answer_clearance": client.post(
+            f"{clearance}/answers", json={"answer": "cancelled"}
+        ).json(),
+    }
     client.delete(flight)
     found |= {
         "show_recorded": _wait_for(client, recorded, lambda got: got["outcome"] == "removed"),
@@ -105,6 +118,8 @@ def _settle(said: Any) -> Any:
     match said:
         case dict():
             return {name: _settle(VARYING.get(name, part)) for name, part in said.items()}
+        case [float(), float(), *_]:
+            return [_settle(part) for part in said[:SHOWN]]
         case list():
             return [_settle(part) for part in said]
         case str():

@@ -1,6 +1,6 @@
 """Write THIRD_PARTY_NOTICES.md anew: `python -m tools.notices`.
 
-It reads what is installed: the distributions that `relguide[serve]` brings, which the container
+It reads what is installed: the distributions that `relguide[serve,atc]` brings, which the container
 holds, and the packages that are bundled into the web page, which the wheel holds.
 """
 
@@ -84,9 +84,10 @@ def _quoted(licence: Path) -> str:
 
 
 def installed_notices() -> list[Notice]:
-    """The distributions that `relguide[serve]` brings, by name."""
+    """The distributions that `relguide[serve,atc]` brings, by name."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    waiting = [*project["dependencies"], *project["optional-dependencies"]["serve"]]
+    extras = project["optional-dependencies"]
+    waiting = [*project["dependencies"], *extras["serve"], *extras["atc"]]
     found: dict[str, Notice] = {}
     asked: set[tuple[str, str]] = set()
     while waiting:

@@ -13,6 +13,7 @@ from collections.abc import Awaitable, Callable
 from contextlib import suppress
 
 from websockets.asyncio.client import connect
+from websockets.exceptions import WebSocketException
 from websockets.typing import Subprotocol
 
 from benchmarks.service.load import request
@@ -89,11 +90,95 @@ async def unknown_keys(port: int, address: str) -> None:
 
 
 async def hang_ups(port: int, address: str) -> None:
-    """Leave as soon as the request is sent, and a little later."""
+    """Leave as soon as the request is sent, and a little later, on new connections each."""
     for body in HEAVY:
         wanted = request("POST", f"{PLANS}?max_ms=10000", json.dumps(body).encode())
-        for patience in (0.001, 0.01, 0.1):
+        for patience in (*[0.001] * 100, 0.01, 0.1, 1.0):
             await _ask(port, address, wanted, hang_up=patience)
+
+
+async def frames(port: int, address: str) -> None:
+    """Frames on a stream, as fast as they go, and on though the service has closed it."""
+    async with connect(
+        await _any_stream(port, address),
+        subprotocols=[Subprotocol(PROTOCOL)],
+        proxy=None,
+        local_addr=(address, 0),
+    ) as stream:
+        flood = bytes((0x82, 0x80, 0, 0, 0, 0)) * 1000  # empty ones
+        while not stream.transport.is_closing():
+            stream.transport.write(flood)
+            await asyncio.sleep(0.002)
+
+
+async def idle_connections(port: int, address: str) -> None:
+    """256 connections that ask for `/healthz` every three seconds."""
+    await _stay(port, address, 256)
+
+
+async def idle_crowds(port: int, address: str) -> None:
+    """250 of the same: from 40 addresses, 10,000."""
+    await _stay(port, address, 250)
+
+
+async def _stay(port: int, address: str, count: int) -> None:
+    async def stay() -> None:
+        while True:
+            with suppress(OSError, EOFError):
+                reader, writer = await asyncio.open_connection(
+                    "127.0.0.1", port, local_addr=(address, 0)
+                )
+                try:
+                    while True:
+                        writer.write(request("GET", "/healthz"))
+                        await reader.readuntil(b"}")
+                        await asyncio.sleep(3.0)
+                finally:
+                    writer.transport.abort()
+            await asyncio.sleep(1.0)
+
+    await asyncio.gather(*(stay() for _ in range(count)))
+
+
+async def held_flights(port: int, address: str) -> None:
+    """All flights that one may have, at rate 60 and polled, and 64 watchers of another's."""
+    start = request("POST", "/api/v1/flights", b'{"scenario":"fig_6b","rate":60}')
+    url = await _any_stream(port, address)
+    for _ in range(15):
+        await _ask(port, address, start)
+
+    async def watch() -> None:
+        with suppress(OSError, WebSocketException):
+            async with connect(
+                url, subprotocols=[Subprotocol(PROTOCOL)], proxy=None, local_addr=(address, 0)
+            ) as stream:
+                async for _ in stream:
+                    pass
+
+    async def poll() -> None:
+        while True:
+            for flight in await _flights(port, address):
+                path = f"/api/v1/flights/{flight['id']}"
+                await _ask(port, address, request("GET", path))
+            await asyncio.sleep(4.0)
+
+    await asyncio.gather(poll(), *(watch() for _ in range(64)))
+
+
+async def _any_stream(port: int, address: str) -> str:
+    """Where the first of all flights is watched."""
+    flights = await _flights(port, address)
+    return f"ws://127.0.0.1:{port}/api/v1/flights/{flights[0]['id']}/stream"
+
+
+async def _flights(port: int, address: str) -> list[dict[str, str]]:
+    reader, writer = await asyncio.open_connection("127.0.0.1", port, local_addr=(address, 0))
+    writer.write(request("GET", "/api/v1/flights"))
+    head = await reader.readuntil(b"\r\n\r\n")
+    size = int(head.lower().partition(b"content-length:")[2].partition(b"\r\n")[0])
+    listed: list[dict[str, str]] = json.loads(await reader.readexactly(size))["flights"]
+    writer.transport.abort()
+    return listed
 
 
 async def slow_bodies(port: int, address: str) -> None:
@@ -120,14 +205,7 @@ async def slow_bodies(port: int, address: str) -> None:
 async def deaf_sockets(port: int, address: str) -> None:
     """Ten streams, and ten requests for large answers, none of which is ever read."""
     body = {"situation": STRAIGHT, "columns": 256, "rows": 256, "times": True}
-    flights = request("GET", "/api/v1/flights")
-    reader, writer = await asyncio.open_connection("127.0.0.1", port, local_addr=(address, 0))
-    writer.write(flights)
-    head = await reader.readuntil(b"\r\n\r\n")
-    size = int(head.lower().partition(b"content-length:")[2].partition(b"\r\n")[0])
-    listed = json.loads(await reader.readexactly(size))["flights"]
-    writer.transport.abort()
-    url = f"ws://127.0.0.1:{port}/api/v1/flights/{listed[0]['id']}/stream"
+    url = await _any_stream(port, address)
     streams, writers = [], []
     for _ in range(10):
         stream = await connect(
@@ -152,11 +230,17 @@ KINDS: dict[str, Attack] = {
         areas,
         unknown_keys,
         hang_ups,
+        frames,
+        idle_connections,
+        idle_crowds,
+        held_flights,
         slow_bodies,
         deaf_sockets,
     )
 }
 HEAVY = heavy(8)
+COUNTS = {"hang_ups": 24, "frames": 24, "idle_connections": 2, "idle_crowds": 40, "held_flights": 2}
+"""How many of a kind there are, each from an address of its own; of the others six."""
 
 
 async def attack(port: int, kind: str, count: int) -> None:
@@ -164,7 +248,7 @@ async def attack(port: int, kind: str, count: int) -> None:
 
     async def go_on(address: str) -> None:
         while True:
-            with suppress(OSError, EOFError):
+            with suppress(OSError, EOFError, WebSocketException):
                 await KINDS[kind](port, address)
             await asyncio.sleep(0.01)
 

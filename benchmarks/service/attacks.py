@@ -1,9 +1,10 @@
-"""What do attackers do to the others? Six of each kind against a service, with a table.
+"""What do attackers do to the others? Some of each kind against a service, with a table.
 
     python -m benchmarks.service.attacks --seconds 6
     python -m benchmarks.service.attacks --kind batches
 
-The others plan what is planned at once, plan what takes a worker, and watch a flight. Their times
+The others plan what is planned at once, on connections that they keep and on new ones, plan what
+takes a worker, and watch a flight of theirs. Their times
 are measured before each attack and during it. The event loop is watched from inside: how long it
 was held up at most by its own work (`loop`, of the processor). At last the service is ended by
 SIGTERM, still under attack.
@@ -26,8 +27,8 @@ from websockets.asyncio.client import connect
 from websockets.typing import Subprotocol
 
 from benchmarks.options import positive
-from benchmarks.service.attackers import KINDS
-from benchmarks.service.load import Load, put_load, request
+from benchmarks.service.attackers import COUNTS, KINDS
+from benchmarks.service.load import Load, put_load, put_new_load, request
 from benchmarks.service.service import Service, running
 from benchmarks.service.situations import HEAD_ON, STRAIGHT
 from relguide.contract.protocol import PROTOCOL
@@ -35,6 +36,8 @@ from relguide.contract.protocol import PROTOCOL
 PLANS = "/api/v1/plans"
 AT_ONCE = request("POST", PLANS, json.dumps(STRAIGHT).encode())
 BY_WORKER = request("POST", f"{PLANS}?include=alternatives", json.dumps(HEAD_ON).encode())
+OWNER, OTHERS = "127.0.1.1", "127.0.1.2"
+"""Where the others ask from: the flight is the first one's."""
 BEGUN = 1.5
 """How long attackers have to begin [s]."""
 
@@ -44,6 +47,8 @@ class Others:
     """How the others fared for a while."""
 
     at_once: Load
+    new: Load
+    """The same, on a new connection each."""
     by_worker: Load
     ticks: float
     """A second, of a stream."""
@@ -55,7 +60,8 @@ class Others:
     @property
     def refused(self) -> int:
         """Answers that were no plans."""
-        statuses: Counter[int] = self.at_once.statuses + self.by_worker.statuses
+        asked = (self.at_once, self.new, self.by_worker)
+        statuses: Counter[int] = sum((load.statuses for load in asked), Counter())
         return statuses.total() - statuses[200]
 
 
@@ -74,12 +80,17 @@ def main(arguments: list[str] | None = None) -> int:
     """Attack by each kind, and print a table."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--seconds", type=positive, default=6, help="of each measurement")
-    parser.add_argument("--attackers", type=positive, default=6)
+    parser.add_argument("--attackers", type=positive, help="of a kind, if not as usual")
     parser.add_argument("--kind", choices=KINDS, action="append")
     given = parser.parse_args(arguments)
-    console = Console(width=118)
+    console = Console(width=130)
     console.print(
-        table([attack(kind, given.attackers, given.seconds) for kind in given.kind or KINDS])
+        table(
+            [
+                attack(kind, given.attackers or COUNTS.get(kind, 6), given.seconds)
+                for kind in given.kind or KINDS
+            ]
+        )
     )
     return 0
 
@@ -87,7 +98,7 @@ def main(arguments: list[str] | None = None) -> int:
 def attack(kind: str, count: int, seconds: float) -> Attacked:
     """Measure the others before and during an attack, and end the service under it."""
     with running() as service:
-        flight = service.get("/api/v1/flights", "POST", {"scenario": "fig_6b"})["id"]
+        flight = service.get("/api/v1/flights", "POST", {"scenario": "fig_6b"}, OWNER)["id"]
         uvloop.run(measure(service, flight, 1.0))  # whose first requests load what they need
         before = uvloop.run(measure(service, flight, seconds))
         with attackers(service, kind, count):
@@ -117,19 +128,24 @@ async def measure(service: Service, flight: str, seconds: float) -> Others:
     async def watch() -> None:
         nonlocal ticks
         url = f"ws://127.0.0.1:{service.port}/api/v1/flights/{flight}/stream"
-        async with connect(url, subprotocols=[Subprotocol(PROTOCOL)], proxy=None) as stream:
+        async with connect(
+            url, subprotocols=[Subprotocol(PROTOCOL)], proxy=None, local_addr=(OWNER, 0)
+        ) as stream:
             async for _ in stream:
                 ticks += 1
 
     watching = asyncio.create_task(watch())
-    at_once, by_worker = await asyncio.gather(
-        put_load(service.port, [AT_ONCE], seconds=seconds, connections=4, pause=0.02),
-        put_load(service.port, [BY_WORKER], seconds=seconds, connections=1, pause=0.1),
+    port, rest = service.port, {"seconds": seconds, "address": OTHERS}
+    at_once, new, by_worker = await asyncio.gather(
+        put_load(port, [AT_ONCE], connections=4, pause=0.02, **rest),
+        put_new_load(port, AT_ONCE, pause=0.02, **rest),
+        put_load(port, [BY_WORKER], connections=1, pause=0.1, **rest),
     )
     watching.cancel()
     held = await asyncio.to_thread(service.get, "/blocked")
     return Others(
         at_once=at_once,
+        new=new,
         by_worker=by_worker,
         ticks=ticks / seconds,
         loop=held["processor_ms"],
@@ -143,6 +159,7 @@ def table(found: Sequence[Attacked]) -> Table:
     for heading in (
         "",
         "p99 at once",
+        "on new ones",
         "p99 by worker",
         "ticks/s",
         "loop",
@@ -156,6 +173,7 @@ def table(found: Sequence[Attacked]) -> Table:
         drawn.add_row(
             one.kind.replace("_", " "),
             f"{_p99(before.at_once)} → {_p99(during.at_once)} ms",
+            f"{_p99(before.new)} → {_p99(during.new)} ms",
             f"{_p99(before.by_worker)} → {_p99(during.by_worker)} ms",
             f"{before.ticks:.1f} → {during.ticks:.1f}",
             f"{before.loop:.0f} → {during.loop:.0f} ms",

@@ -2,11 +2,16 @@
 
 import asyncio
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Coroutine, Sequence
+from contextlib import closing, suppress
 from dataclasses import dataclass, field
 from time import perf_counter
+from typing import Any
 
 import numpy as np
+
+AGAIN = 0.05
+"""After so long a connection that ended is made anew [s]."""
 
 
 def request(method: str, path: str, body: bytes = b"", media: str = "application/json") -> bytes:
@@ -25,6 +30,7 @@ class Load:
     latencies: list[float] = field(default_factory=list)
     """[s]."""
     statuses: Counter[int] = field(default_factory=Counter)
+    """Of answers; 0 counts connections that were not made, or ended without one."""
 
     @property
     def rate(self) -> float:
@@ -45,6 +51,8 @@ class _Connection(asyncio.Protocol):
         self._came = b""
         self._began = 0.0
         self._transport: asyncio.Transport | None = None
+        self.ended: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        """Done when the service, and not this program, has ended it."""
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         assert isinstance(transport, asyncio.Transport) or hasattr(transport, "write")
@@ -52,6 +60,8 @@ class _Connection(asyncio.Protocol):
         self._send()
 
     def connection_lost(self, exc: Exception | None) -> None:
+        if self._transport is not None and not self.ended.done():
+            self.ended.set_result(None)
         self._transport = None
 
     def _send(self) -> None:
@@ -77,8 +87,9 @@ class _Connection(asyncio.Protocol):
             self._send()
 
     def close(self) -> None:
-        if self._transport is not None:
-            self._transport.abort()
+        transport, self._transport = self._transport, None
+        if transport is not None:
+            transport.abort()
 
 
 async def put_load(
@@ -88,8 +99,9 @@ async def put_load(
     seconds: float,
     connections: int = 16,
     pause: float = 0.0,
+    address: str = "127.0.0.1",
 ) -> Load:
-    """Ask for a while, each connection for itself.
+    """Ask for a while, each connection for itself; one that the service ends is made anew.
 
     Args:
         port: of the service on this machine.
@@ -97,16 +109,68 @@ async def put_load(
         seconds: for how long.
         connections: how many.
         pause: between an answer and the next request [s].
+        address: asked from.
     """
-    loop, load = asyncio.get_running_loop(), Load()
-    opened = [
-        await loop.create_connection(lambda: _Connection(requests, pause, load), "127.0.0.1", port)
-        for _ in range(connections)
-    ]
-    load.latencies.clear()
+    load = Load()
+
+    async def ask() -> None:
+        while True:
+            await _ask_on_one(_Connection(requests, pause, load), port, address)
+            load.statuses[0] += 1
+            await asyncio.sleep(AGAIN)
+
+    return await _ask_for(seconds, [ask() for _ in range(connections)], load)
+
+
+async def _ask_on_one(connection: _Connection, port: int, address: str) -> None:
+    """Ask until the service ends the connection."""
+    loop = asyncio.get_running_loop()
+    with closing(connection), suppress(OSError):
+        await loop.create_connection(lambda: connection, "127.0.0.1", port, local_addr=(address, 0))
+        await connection.ended
+
+
+async def put_new_load(
+    port: int, wanted: bytes, *, seconds: float, pause: float, address: str
+) -> Load:
+    """Ask for a while, each time on a new connection.
+
+    Args:
+        port: of the service on this machine.
+        wanted: the request.
+        seconds: for how long.
+        pause: between an answer and the next connection [s].
+        address: asked from.
+    """
+    load = Load()
+
+    async def ask() -> None:
+        while True:
+            began = perf_counter()
+            try:
+                reader, writer = await asyncio.open_connection(
+                    "127.0.0.1", port, local_addr=(address, 0)
+                )
+                writer.write(wanted)
+                head = await reader.readuntil(b"\r\n\r\n")
+                size = head.lower().partition(b"content-length:")[2].partition(b"\r\n")[0]
+                await reader.readexactly(int(size))
+                load.statuses[int(head[9:12])] += 1
+                load.latencies.append(perf_counter() - began)
+                writer.close()
+            except (OSError, EOFError):
+                load.statuses[0] += 1
+            await asyncio.sleep(pause)
+
+    return await _ask_for(seconds, [ask()], load)
+
+
+async def _ask_for(seconds: float, asking: Sequence[Coroutine[Any, Any, None]], load: Load) -> Load:
+    tasks = [asyncio.create_task(each) for each in asking]
     began = perf_counter()
     await asyncio.sleep(seconds)
     load.seconds = perf_counter() - began
-    for _, connection in opened:
-        connection.close()
+    for task in tasks:
+        task.cancel()
+    await asyncio.wait(tasks)
     return load

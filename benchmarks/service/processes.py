@@ -4,7 +4,7 @@
 
 For each pair, of processes and flights in all: the flights fly `fig_6b` at a rate of 1, engaged and
 on record. `rate` is the flight time flown of that asked for, `ticks` what each of ten watchers a
-process gets a second, `processor` what each process takes of one core, without its worker.
+process gets a second, `processor` what each process takes of one core.
 """
 
 import argparse
@@ -49,7 +49,7 @@ async def measure(processes: int, flights: int, lasting: int) -> list[str]:
     each = flights // processes
     async with AsyncExitStack() as stack:
         services = [
-            stack.enter_context(running(process="abcdef"[k], max_flights=4 * each, workers=1))
+            stack.enter_context(running(process="abcdef"[k], max_flights=4 * each, workers=0))
             for k in range(processes)
         ]
         ticks = [

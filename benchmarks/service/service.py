@@ -6,10 +6,10 @@ import socket
 import subprocess
 import sys
 import time
-import urllib.request
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
+from http.client import HTTPConnection
 from tempfile import TemporaryDirectory
 from typing import Any
 
@@ -24,21 +24,23 @@ class Service:
     port: int
     process: subprocess.Popen[bytes]
 
-    def get(self, path: str, method: str = "GET", body: object = None) -> Any:
-        """What it answers, as JSON.
+    def get(
+        self, path: str, method: str = "GET", body: object = None, address: str = "127.0.0.1"
+    ) -> Any:
+        """What it answers to who asks from an address, as JSON.
 
         Raises:
             OSError: if it does not, or answers with a problem.
         """
         data = None if body is None else json.dumps(body).encode()
-        asked = urllib.request.Request(
-            f"http://127.0.0.1:{self.port}{path}",
-            data,
-            {"Content-Type": "application/json"},
-            method=method,
-        )
-        with urllib.request.urlopen(asked, timeout=30.0) as answer:
-            return json.load(answer)
+        asking = HTTPConnection("127.0.0.1", self.port, 30.0, source_address=(address, 0))
+        with closing(asking):
+            asking.request(method, path, data, {"Content-Type": "application/json"})
+            answer = asking.getresponse()
+            text = answer.read()
+        if answer.status >= 400:
+            raise OSError(f"{method} {path}: {answer.status} {text.decode()}")
+        return json.loads(text) if text else None
 
     def processor_time(self) -> float:
         """Of its own process, without workers [s]."""

@@ -90,7 +90,10 @@ def say_ticks(flights: int, ticks: list[int], got: int, seconds: float) -> str:
 async def watching(service: Service, *, flights: int, watchers: int) -> AsyncIterator[list[int]]:
     """Let flights fly, and watch them: how many ticks each watcher has got so far."""
     wanted = {"scenario": "fig_6b", "engagement": "engaged"}
-    ids = [service.get("/api/v1/flights", "POST", wanted)["id"] for _ in range(flights)]
+    ids = [
+        (await asyncio.to_thread(service.get, "/api/v1/flights", "POST", wanted))["id"]
+        for _ in range(flights)
+    ]
     ticks = [0] * watchers
     tasks = [
         asyncio.create_task(_watch(service.port, ids[k % len(ids)], ticks, k))

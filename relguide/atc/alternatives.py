@@ -12,7 +12,8 @@ from typing import Literal, NamedTuple, TypeVar
 
 import numpy as np
 
-from relguide.atc.documents import AlternativeManoeuvre, TrackCard
+from relguide.atc.cards import track_card
+from relguide.atc.documents import AlternativeManoeuvre
 from relguide.atc.picture import Picture
 from relguide.atc.probe import SHOWN
 from relguide.atc.request import Manoeuvre
@@ -117,7 +118,7 @@ def _validated(
         spacing=tried.plan.situation.slot_distance,
         joins=manoeuvre.joins,
         least=least if least < inf else settings.minimum + SHOWN,
-        route=_card(path),
+        route=track_card(path),
     )
 
 
@@ -238,14 +239,4 @@ def _led_in(path: Track, situation: Situation, now: Second) -> Track:
         low=np.append(path.low[0], path.low),
         high=np.append(path.high[0], path.high),
         error=path.error,
-    )
-
-
-def _card(track: Track) -> TrackCard:
-    known = bool(np.isfinite(track.low).all() and np.isfinite(track.high).all())
-    return TrackCard(
-        t=tuple(track.t.tolist()),
-        x=tuple(track.x.tolist()),
-        y=tuple(track.y.tolist()),
-        altitude=tuple((0.5 * (track.low + track.high)).tolist()) if known else (),
     )

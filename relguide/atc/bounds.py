@@ -48,12 +48,13 @@ def cleared_stray(track: Track, settings: AtcSettings) -> Metre:
 def largest_turn(track: Track, within: Second) -> Radian:
     """The most that a track changes its direction within so many seconds [rad]."""
     directions = np.unwrap(np.arctan2(np.diff(track.x), np.diff(track.y)))
-    begins, ends = track.t[:-1], track.t[1:]
+    last = np.searchsorted(track.t[:-1], track.t[1:] + within, side="right") - 1
+    reaches = int(np.max(last - np.arange(len(last))))
     most = 0.0
-    for k in range(len(directions)):
-        last = int(np.searchsorted(begins, ends[k] + within, side="right"))
-        seen = directions[k:last]
-        most = max(most, float(np.max(np.abs(seen - directions[k]))))
+    for step in range(1, reaches + 1):  # pieces apart
+        seen = step <= (last - np.arange(len(last)))[:-step]
+        turned = np.abs(directions[step:] - directions[:-step])[seen]
+        most = max(most, float(np.max(turned, initial=0.0)))
     return most
 
 

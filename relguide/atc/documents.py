@@ -25,6 +25,7 @@ class TrackCard:
     """A track in columns of equal length: straight lines between knots."""
 
     t: tuple[Second, ...]
+    """Of its knots, ascending."""
     x: tuple[Metre, ...]
     """East."""
     y: tuple[Metre, ...]
@@ -44,6 +45,7 @@ class PlaceAt:
     """A place at a time."""
 
     t: Second
+    """When."""
     x: Metre
     """East."""
     y: Metre
@@ -85,6 +87,7 @@ class Finding:
     """Why a manoeuvre is not acceptable."""
 
     reason: ReasonCode
+    """In a word."""
     text: str
     """In the words of data link, e.g. UNABLE DUE TO TRAFFIC BAW12."""
     message: str
@@ -108,9 +111,11 @@ class AlternativeManoeuvre:
     spacing: Metre
     """D."""
     joins: Second
+    """When it is in its place."""
     least: Metre
     """How near it comes to any aircraft but its leader."""
     route: TrackCard
+    """What is flown."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -118,6 +123,7 @@ class ValidationCard:
     """What automation finds of a manoeuvre. It advises: the controller decides."""
 
     verdict: Verdict
+    """In a word."""
     findings: tuple[Finding, ...]
     """None where it is acceptable."""
     pairs: tuple[PairCard, ...]
@@ -139,10 +145,13 @@ class StateChange:
     """A step in the life of a clearance."""
 
     state: State
+    """It is from then on."""
     t: Second
+    """When, in the time of its sky."""
     at: str
     """Wall clock, UTC, ISO 8601."""
     by: Actor
+    """Who brought it there."""
     reason: str = field(default="", metadata=LEFT_OUT)
     """A `ReasonCode`, where there is one."""
     message: str
@@ -154,13 +163,17 @@ class Deviation:
     """How far an aircraft is from what it is cleared to fly, of one kind."""
 
     subject: DeviationKind
+    """In what."""
     level: DeviationLevel
+    """How far."""
     amount: float
     """Beside the path, from D, from the level [m]; before or behind [s]; of a turn how late [s]."""
     unit: Literal["m", "s"]
+    """Of the amount."""
     since: Second
     """Since when it is at this level or above."""
     message: str
+    """In a sentence."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -168,16 +181,19 @@ class ClearanceCard:
     """A clearance: what is asked for, what automation finds, what was answered."""
 
     id: str
+    """To ask for it by."""
     sky: str
     """Empty: the one on the earth; else the flight whose sky it is."""
     flight_id: str = field(default="", metadata=LEFT_OUT)
     """The flight that flies it, if it is one of this service."""
     clearance_type: Literal["capture_then_maintain"] = "capture_then_maintain"
+    """What is asked for."""
     aircraft: str
     """Who asks."""
     traffic_id: str
     """Behind whom."""
     spacing_type: SpacingType
+    """What is kept behind the traffic."""
     slot_distance: Metre = 0.0
     """D; 0 with spacing by time."""
     spacing_time: Second = 0.0
@@ -189,11 +205,15 @@ class ClearanceCard:
     text: str
     """The request in the words of data link."""
     state: State
+    """How far it has come."""
     due: Second
     """When it expires if nothing happens; 0 where nothing expires."""
     joins: Second
+    """When it is in its place."""
     route: TrackCard
+    """What is to be flown."""
     leader_route: TrackCard
+    """What its traffic is expected to fly."""
     bank: Radian = field(default=0.0, metadata=LEFT_OUT)
     """That its turns need; left out where it is not known."""
     max_bank: Radian = field(default=0.0, metadata=LEFT_OUT)

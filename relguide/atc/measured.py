@@ -32,12 +32,11 @@ class Measured:
 
     def level(self, before: DeviationLevel) -> DeviationLevel:
         """The level of it, after the one that it had before."""
-        alert, caution = self.threshold.alert, self.threshold.caution
-        if self.at_once or self.amount > alert * (CLEARS if before == "alert" else 1.0):
+        alert = self.threshold.alert * (CLEARS if before == "alert" else 1.0)
+        caution = self.threshold.caution * (1.0 if before == "none" else CLEARS)
+        if self.at_once or self.amount > alert:
             return "alert"
-        return (
-            "caution" if self.amount > caution * (1.0 if before == "none" else CLEARS) else "none"
-        )
+        return "caution" if self.amount > caution else "none"
 
 
 def on_path(seen: Seen, path: Track, settings: AtcSettings) -> Iterator[Measured]:

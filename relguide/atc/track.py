@@ -49,7 +49,7 @@ class Track:
 
     def place(self, t: Second) -> tuple[Metre, Metre]:
         """Where it is at a time, before the first knot and past the last one straight on [m]."""
-        k = int(np.clip(np.searchsorted(self.t, t) - 1, 0, len(self.t) - 2))
+        k = min(max(int(np.searchsorted(self.t, t)) - 1, 0), len(self.t) - 2)
         share = (t - self.t[k]) / (self.t[k + 1] - self.t[k])
         x = self.x[k] + share * (self.x[k + 1] - self.x[k])
         y = self.y[k] + share * (self.y[k + 1] - self.y[k])
@@ -57,7 +57,7 @@ class Track:
 
     def velocity(self, t: Second) -> tuple[MetrePerSecond, MetrePerSecond]:
         """Its ground velocity at a time, east and north [m/s]."""
-        k = int(np.clip(np.searchsorted(self.t, t, side="right") - 1, 0, len(self.t) - 2))
+        k = min(max(int(np.searchsorted(self.t, t, side="right")) - 1, 0), len(self.t) - 2)
         time = self.t[k + 1] - self.t[k]
         return float((self.x[k + 1] - self.x[k]) / time), float((self.y[k + 1] - self.y[k]) / time)
 

@@ -55,18 +55,19 @@ def validate(
     """
     settings = settings or AtcSettings()
     begin, end = horizon(manoeuvre, now, settings)
-    known = _known(manoeuvre, picture, end, settings)
     own = manoeuvre.path
+    stray = cleared_stray(own, settings)
+    known = _known(manoeuvre, picture, end, stray, settings)
     approaches = probe(
         own, [one.other for one in known], begin=begin, end=end, vertical=settings.vertical_minimum
     )
     pairs = [(_pair(own, known, approach), approach) for approach in approaches]
     findings = (
         *_stale(picture, now, settings),
-        *_expired(manoeuvre, now, settings),
+        *_expired(manoeuvre, now),
         *_beyond_horizon(manoeuvre, now, settings),
         *_separation(pairs, known, manoeuvre, now),
-        *_airspace(manoeuvre, picture, begin, end, now, settings),
+        *_airspace(manoeuvre, picture, (begin, end), stray, now, settings),
         *_performance(manoeuvre, end, settings),
         *_leader(manoeuvre, picture, now, end, settings),
     )
@@ -84,16 +85,15 @@ def validate(
 
 
 def horizon(manoeuvre: Manoeuvre, now: Second, settings: AtcSettings) -> tuple[Second, Second]:
-    """From when until when a manoeuvre is looked at [s]."""
+    """From when until when a manoeuvre is looked at [s]; once it has joined, ever further on."""
     begin = max(now, manoeuvre.path.begin)
-    return begin, min(manoeuvre.joins + settings.followed, now + settings.horizon)
+    return begin, min(max(manoeuvre.joins, now) + settings.followed, now + settings.horizon)
 
 
 def _known(
-    manoeuvre: Manoeuvre, picture: Picture, end: Second, settings: AtcSettings
+    manoeuvre: Manoeuvre, picture: Picture, end: Second, stray: Metre, settings: AtcSettings
 ) -> list[_Known]:
     """All others, each with what is to be kept and what may differ."""
-    own_stray = cleared_stray(manoeuvre.path, settings)
     known = []
     for seen in picture.aircraft:
         if seen.ident == manoeuvre.ident:
@@ -107,7 +107,7 @@ def _known(
         other = Other(
             track=track,
             minimum=settings.minimum,
-            stray=stray_of(seen, settings, own_stray),
+            stray=stray_of(seen, settings, stray),
             fan=settings.fan if seen.path is None else nan,
         )
         known.append(_Known(seen, other, leads=False, intends=seen.path is not None))
@@ -177,12 +177,12 @@ def _separation(
 
 
 def _airspace(
-    manoeuvre: Manoeuvre, picture: Picture, begin: Second, end: Second, now: Second,
-    settings: AtcSettings,
+    manoeuvre: Manoeuvre, picture: Picture, looked_at: tuple[Second, Second], stray: Metre,
+    now: Second, settings: AtcSettings,
 ) -> Iterator[Finding]:  # fmt: skip
-    bound = cleared_stray(manoeuvre.path, settings)
+    begin, end = looked_at
     for entry in entries(
-        manoeuvre.path, picture.airspaces, begin=begin, end=end, bound=bound,
+        manoeuvre.path, picture.airspaces, begin=begin, end=end, bound=stray,
         spare=settings.level.caution,
     ):  # fmt: skip
         when = _in(entry.at, now)
@@ -190,7 +190,7 @@ def _airspace(
         if entry.least > 0.0:
             message = (
                 f"It comes to {distance(entry.least)} from {entry.ident}, which is closed, {when}; "
-                f"{distance(bound + manoeuvre.path.error)} is kept for what it may stray."
+                f"{distance(stray + manoeuvre.path.error)} is kept for what it may stray."
             )
         yield _finding(
             "airspace", f"{message} Another path, or a start that is later, would help.",
@@ -206,7 +206,7 @@ def _performance(manoeuvre: Manoeuvre, end: Second, settings: AtcSettings) -> It
             f"Its turns need {bank / DEG:.0f}° of bank, and {manoeuvre.ident} has {has / DEG:.0f}°."
             " A plan for that bank would help.",
         )
-    lost = lost_place(manoeuvre, end, settings)
+    lost = lost_place(manoeuvre, min(end, manoeuvre.path.end), settings)
     if lost:
         yield _finding(
             "speed",
@@ -247,13 +247,11 @@ def _stale(picture: Picture, now: Second, settings: AtcSettings) -> Iterator[Fin
         )
 
 
-def _expired(manoeuvre: Manoeuvre, now: Second, settings: AtcSettings) -> Iterator[Finding]:
-    over = manoeuvre.joins + settings.followed
-    if now >= min(over, manoeuvre.path.end):
+def _expired(manoeuvre: Manoeuvre, now: Second) -> Iterator[Finding]:
+    ended = now - manoeuvre.path.end
+    if ended >= 0.0:
         yield _finding(
-            "expired",
-            f"Its path ended {now - min(over, manoeuvre.path.end):.0f} s ago. "
-            "A plan that begins now would help.",
+            "expired", f"Its path ended {ended:.0f} s ago. A plan that begins now would help."
         )
 
 

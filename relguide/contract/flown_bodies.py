@@ -12,6 +12,7 @@ from pydantic import Field
 from relguide.contract.accepted import Accepted
 from relguide.contract.bodies import NamedSituationBody, WindBody, situation_from_body, wind_of
 from relguide.contract.follower_bodies import Queue, followers_from_body
+from relguide.contract.other_bodies import Ident
 from relguide.contract.places import Anchor
 from relguide.contract.refusal import ContractError, Strict
 from relguide.flying.air import GUSTS, ISA_DEVIATION, Air
@@ -87,6 +88,10 @@ class SurveillanceBody(Strict):
 class FlownSituationBody(NamedSituationBody):
     """A situation to be flown."""
 
+    pursuer_ident: Ident = "PURSUER"
+    """What the pursuer is called in the flight, e.g. by its callsign."""
+    leader_ident: Ident = "LEADER"
+    """What the leader is called."""
     air: AirBody | None = None
     """What it is flown in; if left out, the standard atmosphere and `wind`."""
     believed_air: AirBody | None = None
@@ -117,6 +122,9 @@ def scenario_from_body(body: FlownSituationBody) -> tuple["Scenario", Anchor]:
         own = replace(own, situation=replace(situation, wind=profile.at(own.altitude)))
     own = replace(own, profile=profile, gusts=air.gusts_mps, surveillance=_surveillance(body))
     own = replace(own, believed_air=_believed(body, own.air))
+    if body.pursuer_ident == body.leader_ident:
+        raise ContractError([("leader_ident", "is what the pursuer is called: choose another.")])
+    own = replace(own, pursuer_ident=body.pursuer_ident, leader_ident=body.leader_ident)
     _expect_own_idents(body, own)
     own = replace(
         own,

@@ -30,6 +30,7 @@ EXTRAS = {
     "distributed": "cluster",
     "pyarrow": "parquet",
     "psycopg": "postgres",
+    "asterix": "atc",
     "cfgrib": "winds",
     "eccodes": "winds",
     "xarray": "winds",

@@ -17,12 +17,14 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.outcome import Planner
+from relguide_server.atc import export_routes, traffic_routes
 from relguide_server.atc import routes as clearance_routes
-from relguide_server.atc import traffic_routes
 from relguide_server.atc.desk import Desk
+from relguide_server.atc.feeds.feeds import Feeds
 from relguide_server.atc.reports import Reports
 from relguide_server.atc.skies import Skies
 from relguide_server.atc.watching import Watching
+from relguide_server.feed_settings import feeds_of
 from relguide_server.flights import record_routes, routes, scene_relay, stream_docs
 from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
 from relguide_server.flights.live_fleet import LiveFleet
@@ -105,7 +107,9 @@ def create_app(
     records = records or RecordsService(clock=Clock())
     # other processes cannot be given a planner that has no name: then threads do the work
     name = "" if planner else settings.planner
-    workers = WorkerPool(settings.workers if name else 0, queue=settings.queue)
+    workers = WorkerPool(
+        settings.workers if name else 0, queue=settings.queue, note_wait=metrics.note_wait
+    )
     planner = planner or make_planner(settings.planner)
     quick = takes_deadline(planner)
     if name != "exact":
@@ -118,6 +122,8 @@ def create_app(
     metrics.watch(partial(_measure, fleet, workers))
     metrics.watch(records.measure)
     reports = Reports()
+    feeds = Feeds(feeds_of(settings.feed), reports)
+    metrics.watch(feeds.measure)
     desk = Desk(Skies(fleet, reports), settings, records, metrics)
     watching = Watching(desk, reports)
 
@@ -127,10 +133,12 @@ def create_app(
         records.start()
         drift.start()
         fleet.start()
+        feeds.start()
         watching.start()
         workers.start(partial(preparation.can_plan_by, name), partial(load, name))
         yield
         await app.state.idempotency.stop()
+        await feeds.stop()
         await workers.stop()
         await watching.stop()
         await desk.stop()
@@ -158,7 +166,7 @@ def create_app(
     )
     app.state.settings, app.state.catalogue = settings, catalogue
     app.state.records, app.state.recordings = records, KeptRecordings()
-    app.state.reports, app.state.desk = reports, desk
+    app.state.reports, app.state.feeds, app.state.desk = reports, feeds, desk
     app.state.peers = Peers(settings.peers, process=settings.process)
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     app.router.routes[:0] = plans.router.routes  # most requests are for these
@@ -171,6 +179,7 @@ def create_app(
         record_routes.router,
         scene_relay.router,
         clearance_routes.router,
+        export_routes.router,
         traffic_routes.router,
         stream_docs.router,
         problem_docs.router,
@@ -235,6 +244,9 @@ async def show_readiness(
         },
         "records": records.report().model_dump(),
     }
+    feeds: Feeds = request.app.state.feeds
+    if heard := feeds.report():
+        report["feeds"] = heard
     if preparation.ready and answers:
         return json_answer(report)
     report["status"] = "preparing"
@@ -306,6 +318,9 @@ def _measure(fleet: LiveFleet, workers: WorkerPool) -> Iterator[Metric]:
         for kind, number in numbers.items():
             family.add_metric([kind], number)
         yield family
+    yield CounterMetricFamily(
+        "relguide_worker_cpu_seconds", "Processor time of workers.", value=workers.processor_time
+    )
     yield CounterMetricFamily(
         "relguide_workers_killed", "Workers ended and replaced.", value=workers.killed
     )

@@ -83,6 +83,24 @@ class PlanningReport(BaseModel):
     waiting: dict[str, int] = Field(description="Jobs that wait for one, by kind.")
 
 
+class FeedReport(BaseModel):
+    """A feed that says what else flies."""
+
+    feed: str = Field(description="As the setting names it.")
+    state: Literal["hears", "silent", "over"] = Field(
+        description="silent: nothing usable has come for 10 s; over: a recording's end."
+    )
+    message: str = Field(description="How it stands, in a sentence.")
+    messages: int = Field(description="Datagrams, answers or seconds of a recording that came.")
+    taken: int = Field(description="Reports that were put into the picture.")
+    malformed: int = Field(description="Messages that could not be read.")
+    unusable: int = Field(
+        description="Reports without a place, a time, a velocity and a name that can be."
+    )
+    untimely: int = Field(description="Reports of more than a minute ago, or of later than now.")
+    lost: int = Field(description="Messages that came faster than they could be read.")
+
+
 class Readiness(BaseModel):
     """What a service can answer already."""
 
@@ -91,6 +109,10 @@ class Readiness(BaseModel):
     preparing: NowPreparing | None = Field(description="What is compiled now; null if nothing is.")
     planning: PlanningReport = Field(description="The workers.")
     records: RecordsReport = Field(description="The database; what it says changes nothing here.")
+    feeds: list[FeedReport] = Field(
+        default_factory=list,
+        description="Feeds, if there are any; that one is silent changes nothing here.",
+    )
 
 
 class Preparation:

@@ -20,6 +20,7 @@ from pydantic_core import ErrorDetails
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from relguide.learn.planners import SERVING
+from relguide_server.feed_settings import feeds_of
 
 PREFIX = "RELGUIDE_"
 NOT_OURS = re.compile(r"SKIP_WEB|KERNELS|SERVICE_(HOST|PORT\w*)|PORT(_\w+)?")
@@ -116,6 +117,9 @@ class ServiceSettings(BaseSettings):
     log_level: Annotated[Literal["debug", "info", "warning"], Unit("debug|info|warning")] = "info"
     """What the log holds at least; `debug` adds a line for every request."""
 
+    feed: Annotated[str, Unit("FEED,…")] = ""
+    """Who says what else flies: `asterix://ADDRESS:PORT` (UDP, categories 062 and 021),
+    `readsb:ADDRESS` or `readsb:FILE` (aircraft.json), `replay:FILE` (a recording)."""
     atc_auto_answer: Annotated[Literal["auto", "on", "off"], Unit("auto|on|off")] = "auto"
     """Whether the automation answers requests for clearances in the controller's place; `auto`:
     while no token is a controller's and no controllers' stream is open."""
@@ -146,6 +150,12 @@ class ServiceSettings(BaseSettings):
         if url and not url.startswith(DATABASES):
             raise ValueError(f"must begin with {' or '.join(DATABASES)}")
         return url
+
+    @field_validator("feed")
+    @classmethod
+    def _are_feeds(cls, text: str) -> str:
+        feeds_of(text)
+        return text
 
     @field_validator("root_path")
     @classmethod

@@ -76,8 +76,10 @@ def test_a_controller_works_five_requests_by_keyboard_alone(asked: Page) -> None
 def test_the_sky_is_looked_at_from_all_sides(asked: Page) -> None:
     expect(rows(asked, "REQUESTED")).to_have_count(5, timeout=ASKED)
     choose_waiting(asked)
-    # every aircraft has a label, and none covers another
-    expect(asked.locator(".atc-labels text[data-label*=PURSUER]")).to_have_count(5)
+    # every aircraft has a label, the pair and the join, too, and none covers another
+    expect(asked.locator(".atc-labels text[data-label]")).to_have_count(
+        asked.locator(".atc-aircraft > [data-ident]").count() + 2
+    )
     boxes = [each.bounding_box() for each in asked.locator(".atc-labels text").all()]
     for k, a in enumerate(boxes):
         for b in boxes[:k]:

@@ -49,7 +49,7 @@ def attackers(port: int, kind: str) -> Iterator[None]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["heavy_plans", "hang_ups"])
+@pytest.mark.parametrize("kind", ["heavy_plans", "hang_ups", "frames"])
 def test_attackers_hold_up_nobody(kind: str) -> None:
     assert kind in KINDS
     app = create_app(ServiceSettings(workers=2), catalogue=ideal_catalogue())
@@ -71,6 +71,7 @@ def test_attackers_hold_up_nobody(kind: str) -> None:
         with httpx.Client(base_url=f"http://{address}", timeout=30.0) as client:
             client.post("/api/v1/plans", json=STRAIGHT)
             client.get("/watch")
+            client.post("/api/v1/flights", json={"scenario": "ideal", "paused": True})
             with attackers(int(address.rpartition(":")[2]), kind):
                 end, worst = monotonic() + 2.0, 0.0
                 while monotonic() < end:

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-38cc71cee134";
+export const PROTOCOL = "relguide-a7258bdd8f3f";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -352,9 +352,11 @@ export interface AlternativeManoeuvre {
   word: string;
   /** D. */
   spacing_m: number;
+  /** When it is in its place. */
   joins_s: number;
   /** How near it comes to any aircraft but its leader. */
   least_m: number;
+  /** What is flown. */
   route: TrackCard;
 }
 
@@ -549,16 +551,19 @@ export interface ClearanceAnswer {
 
 /** A clearance: what is asked for, what automation finds, what was answered. */
 export interface ClearanceCard {
+  /** To ask for it by. */
   id: string;
   /** Empty: the one on the earth; else the flight whose sky it is. */
   sky: string;
   /** The flight that flies it, if it is one of this service. */
   flight_id?: string;
+  /** What is asked for. */
   clearance_type: "capture_then_maintain";
   /** Who asks. */
   aircraft: string;
   /** Behind whom. */
   traffic_id: string;
+  /** What is kept behind the traffic. */
   spacing_type: Spacing;
   /** D; 0 with spacing by time. */
   slot_distance_m: number;
@@ -570,11 +575,15 @@ export interface ClearanceCard {
   word: string;
   /** The request in the words of data link. */
   text: string;
+  /** How far it has come. */
   state: ClearanceState;
   /** When it expires if nothing happens; 0 where nothing expires. */
   due_s: number;
+  /** When it is in its place. */
   joins_s: number;
+  /** What is to be flown. */
   route: TrackCard;
+  /** What its traffic is expected to fly. */
   leader_route: TrackCard;
   /** That its turns need; left out where it is not known. */
   bank_deg?: number;
@@ -755,13 +764,17 @@ export interface CostatesCard {
 
 /** How far an aircraft is from what it is cleared to fly, of one kind. */
 export interface Deviation {
+  /** In what. */
   subject: DeviationKind;
+  /** How far. */
   level: DeviationLevel;
   /** Beside the path, from D, from the level [m]; before or behind [s]; of a turn how late [s]. */
   amount: number;
+  /** Of the amount. */
   unit: "m" | "s";
   /** Since when it is at this level or above. */
   since_s: number;
+  /** In a sentence. */
   message: string;
 }
 
@@ -903,6 +916,7 @@ export interface FanJoin {
 
 /** Why a manoeuvre is not acceptable. */
 export interface Finding {
+  /** In a word. */
   reason: ReasonCode;
   /** In the words of data link, e.g. UNABLE DUE TO TRAFFIC BAW12. */
   text: string;
@@ -1038,6 +1052,8 @@ export interface FlownSituationBody {
   traffic?: (LocalTraffic | GeodeticTraffic)[];
   cells?: (DiscCell | PolygonCell)[];
   id?: string | number;
+  pursuer_ident?: string;
+  leader_ident?: string;
   air?: AirBody | null;
   believed_air?: AirBody | null;
   surveillance?: SurveillanceBody | null;
@@ -1723,6 +1739,7 @@ export interface PilotBody {
 
 /** A place at a time. */
 export interface PlaceAt {
+  /** When. */
   t_s: number;
   /** East. */
   x_m: number;
@@ -2256,10 +2273,13 @@ export interface SpeedOrder {
 
 /** A step in the life of a clearance. */
 export interface StateChange {
+  /** It is from then on. */
   state: ClearanceState;
+  /** When, in the time of its sky. */
   t_s: number;
   /** Wall clock, UTC, ISO 8601. */
   at: string;
+  /** Who brought it there. */
   by: Actor;
   /** A `ReasonCode`, where there is one. */
   reason?: string;
@@ -2384,6 +2404,7 @@ export interface TimeGoal {
 
 /** A track in columns of equal length: straight lines between knots. */
 export interface TrackCard {
+  /** Of its knots, ascending. */
   t_s: number[];
   /** East. */
   x_m: number[];
@@ -2506,6 +2527,7 @@ export interface UnsafeAlternativeCard {
 
 /** What automation finds of a manoeuvre. It advises: the controller decides. */
 export interface ValidationCard {
+  /** In a word. */
   verdict: ValidationVerdict;
   /** None where it is acceptable. */
   findings: Finding[];

@@ -77,8 +77,9 @@ describe("what the controller answers", () => {
     [news({ clearance: "standby" }), "STANDBY"],
     [news(), "VALIDATED"],
     [news({ automated: true }), "VALIDATED AUTO"],
-    [news({ clearance: "unable", reason: "separation" }), "UNABLE SEPARATION"],
-    [news({ clearance: "unable", reason: "stale_picture" }), "UNABLE STALE PICTURE"],
+    [news({ clearance: "unable", reason: "separation" }), "UNABLE TRAFFIC"],
+    [news({ clearance: "unable", reason: "stale_picture", automated: true }), "UNABLE DATA"],
+    [news({ clearance: "unable", reason: "controller" }), "UNABLE"],
     [null, "ACCEPTED"],
   ] as const)("is under the modes: %#", (clearance, text) => {
     expect(pictureOf(armed(clearance).moment()).order).toBe(text);

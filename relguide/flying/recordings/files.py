@@ -43,7 +43,7 @@ def load_track(path: Path | str, callsign: str = "") -> RecordedTrack:
         OSError: if the file cannot be opened.
     """
     path = Path(path)
-    return take_flight(_reports(path), callsign, str(path))
+    return take_flight(reports_in(path), callsign, str(path))
 
 
 def is_recording(path: Path) -> bool:
@@ -56,7 +56,8 @@ def is_recording(path: Path) -> bool:
     return kind in (*TABLES, *SCENARIOS) or (kind in JSON and _json_reader(_json(path)) is not None)
 
 
-def _reports(path: Path) -> Reports:
+def reports_in(path: Path) -> Reports:
+    """All that a file of recorded flights says; raises as `load_track`."""
     kind = _kind(path)
     if kind in SCENARIOS:
         return read_scn(text_of(path), str(path))

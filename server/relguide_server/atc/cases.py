@@ -9,7 +9,7 @@ from relguide.atc.conformance import Memory
 from relguide.atc.life import Clearance
 from relguide.atc.track import Track
 from relguide.contract.wire import placed_to_wire
-from relguide.flying.documents import ForecastChanged
+from relguide.flying.documents import ClearanceNews, ForecastChanged
 from relguide.planning.frames import LocalPlane
 from relguide.units import Second
 from relguide_server.http.errors import Refusal
@@ -55,6 +55,8 @@ class Case:
     """Whether it is being validated."""
     looked_at: ForecastChanged | None = None
     """The last forecast that was compared with its path."""
+    told: ClearanceNews | None = None
+    """What its crew was told last."""
     joined: Second | None = None
     """Since when its flight has joined [s]."""
 

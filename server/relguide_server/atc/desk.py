@@ -8,6 +8,7 @@ import secrets
 import time
 from collections.abc import Callable, Coroutine
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from typing import Annotated, Any
 
 import orjson
@@ -31,6 +32,7 @@ from relguide.atc.validate import validate
 from relguide.contract.clearance_bodies import ClearanceAnswer, ClearanceReply
 from relguide.units import Second
 from relguide_server.atc.cases import Case, Cases
+from relguide_server.atc.crew_news import crew_news, is_news
 from relguide_server.atc.journal import Journal, written
 from relguide_server.atc.skies import Skies
 from relguide_server.atc.slots import with_its_place
@@ -258,6 +260,7 @@ class Desk:
         changed = ClearanceChanged(t=self.now(case), clearance=card_of(case.clearance))
         case.text = written(changed, None if case.plane is None else case.plane.to_geodetic)
         self.journal.add(changed, case.text)
+        self._tell_crew(case)
         self._note(case)
         self._flush_soon()
 
@@ -345,6 +348,17 @@ class Desk:
         picture = self.skies.picture(sky, self.cases.cleared(sky))
         now, loop = self.skies.now(sky), asyncio.get_running_loop()
         return await loop.run_in_executor(self._pool, validate, manoeuvre, picture, now, self.rules)
+
+    def _tell_crew(self, case: Case) -> None:
+        """Say in the flight that flies it what is new of a clearance."""
+        flight = self.skies.flight(case.clearance.flight_id)
+        if flight is None:
+            return
+        ident = case.pursuer or self.skies.link(flight, "").pursuer
+        news = crew_news(case.clearance, ident, flight.t)
+        if news is not None and is_news(news, case.told):
+            case.told = news
+            flight.say(lambda t: replace(news, t=t))
 
     def _supersede(self, case: Case, by_id: str) -> None:
         now, at = self.now(case), self.at()

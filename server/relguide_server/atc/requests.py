@@ -7,7 +7,7 @@ from pydantic import RootModel
 from starlette.requests import HTTPConnection
 
 from relguide.atc.request import Manoeuvre
-from relguide.atc.tracks import intent_track, straight_track
+from relguide.atc.tracks import followed_track, intent_track, straight_track
 from relguide.contract.bodies import wind_of
 from relguide.contract.clearance_bodies import (
     ClearanceRequest,
@@ -116,15 +116,17 @@ def _by_intent(body: IntentClearanceRequest, desk: Desk) -> Asked:
     goal = body.assigned_spacing_goal
     wind = wind_of(body.wind.from_deg + turned, body.wind.speed_mps)
     turns = [radians(one.bank_deg) for one in body.intent if isinstance(one, TurnPiece)]
+    leader_path = leader.path or straight_track(leader, until=until, settings=desk.rules)
+    flies = intent_track(flown, start=now, until=max(joins, now + 1.0), wind=wind)
     manoeuvre = Manoeuvre(
         ident=aircraft.ident,
         leader=body.traffic_id,
         spacing_type=goal.type,
         spacing=goal.value_m if isinstance(goal, DistanceGoal) else goal.value_s,
         min_separation=body.min_separation_m,
-        path=intent_track(flown, start=now, until=until, wind=wind),
+        path=followed_track(flies, leader_path, until),
         joins=joins,
-        leader_path=leader.path or straight_track(leader, until=until, settings=desk.rules),
+        leader_path=leader_path,
         word="".join(map(_letter, body.intent)),
         bank=max(turns, default=0.0),
         max_bank=radians(aircraft.max_bank_deg),

@@ -54,7 +54,7 @@ class ConnectionShares:
             proxies: says of an address whether it speaks for many clients, and may have all.
             now: a clock.
         """
-        self._most, self._share = most, max(most // 2, 1)
+        self.most, self._share = most, max(most // 2, 1)
         self._proxies = proxies
         self._guests: dict[str, dict[Guest, None]] = {}
         self._count = 0
@@ -64,7 +64,7 @@ class ConnectionShares:
         self._barred = SeldomLine(now)
         self.refused = {"share": 0, "full": 0, "hang_ups": 0}
         """Connections that were not let in, by what was exhausted."""
-        self.shed = self.hang_ups = 0
+        self.shed = self.hang_ups = self.cut_off = 0
 
     def is_open_to(self, host: str) -> bool:
         """Whether a new connection from an address is to be heard at all."""
@@ -92,10 +92,10 @@ class ConnectionShares:
             self._told.add(guest)
             self.refused["share"] += 1
             return TOO_MANY_OF_YOURS.format(most=self._share)
-        if self._count >= self._most and not self._make_room(guest.whose):
+        if self._count >= self.most and not self._make_room(guest.whose):
             self._told.add(guest)
             self.refused["full"] += 1
-            return TOO_MANY.format(most=self._most)
+            return TOO_MANY.format(most=self.most)
         self._seat(guest)
         return ""
 
@@ -126,6 +126,12 @@ class ConnectionShares:
         if not self._proxies(host):
             self._lose_patience(client_at(host))
 
+    def note_flood(self, host: str) -> None:
+        """That a client was cut off for how much it sent: it is not heard for a while."""
+        self.cut_off += 1
+        if not self._proxies(host):
+            self._lose_patience(client_at(host), 2.0 * HANG_UPS)
+
     def measure(self) -> Iterator[Metric]:
         """What is counted here, for Prometheus."""
         yield GaugeMetricFamily(
@@ -141,12 +147,15 @@ class ConnectionShares:
             "relguide_connections_shed", "Idle connections ended to make room.", self.shed
         )
         yield CounterMetricFamily(
+            "relguide_sockets_cut_off", "WebSockets cut off for how much they sent.", self.cut_off
+        )
+        yield CounterMetricFamily(
             "relguide_hang_ups", "Connections left before they were answered.", self.hang_ups
         )
 
-    def _lose_patience(self, client: str) -> None:
-        """Count one more that was in vain, but no more than are forgiven within a second."""
-        self._patience.take(client, min(1.0, HANG_UPS + self._patience.left(client)))
+    def _lose_patience(self, client: str, times: float = 1.0) -> None:
+        """Count some more that were in vain, but no more than are forgiven within a second."""
+        self._patience.take(client, min(times, HANG_UPS + self._patience.left(client)))
 
     def _has_its_share(self, client: str) -> bool:
         return len(self._guests.get(client, ())) >= self._share

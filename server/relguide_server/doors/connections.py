@@ -45,7 +45,7 @@ class Connection(HttpToolsProtocol):
         self._shares = shares
         self.whose = ""
         self._asked_at: Second = self.loop.time()
-        self._has_asked = False
+        self._has_asked = self._is_shed = False
         self._unread = 0
         self._refusal: ASGIApp | None = None
         self._too_many = ""
@@ -79,7 +79,7 @@ class Connection(HttpToolsProtocol):
 
     def shed(self) -> None:
         """End it, to make room for another client's."""
-        self._has_asked = True  # it did not leave by itself
+        self._is_shed = True
         if self._deaf is None:
             self.transport.close()
         else:
@@ -147,7 +147,8 @@ class Connection(HttpToolsProtocol):
         """The connection has ended."""
         self._late.cancel()
         self._shares.leave(self)
-        if not self._has_asked or not (self.cycle is None or self.cycle.response_complete):
+        is_answered = self._has_asked and self.cycle.response_complete
+        if not is_answered and not self._is_shed:
             self._shares.note_hang_up(self.client[0] if self.client else "")
         super().connection_lost(exc)
         self._stop_waiting()

@@ -23,10 +23,10 @@ BACKLOG = 2048
 """Connections that wait in the kernel."""
 AT_ONCE = 128
 """So many are taken out in one pass of the loop: some 2 ms."""
-BEGUN = 4
+BEGUN = 8
 """So many begin in one pass."""
-WAITING = 512
-"""So many may wait to begin; one client may have half of them."""
+FEWEST = 256
+"""At least so many of one client may wait to begin."""
 BREATH: Second = 0.2
 """How long no more are accepted where the process has no more descriptors."""
 LEFT = getattr(select, "POLLRDHUP", getattr(select, "POLLHUP", 0))
@@ -54,7 +54,10 @@ class Listener:
         self.sockets = sockets
         self._shares, self._begin = shares, begin
         self._loop = asyncio.get_running_loop()
-        self._waiting: FairQueue[tuple[socket.socket, str]] = FairQueue(WAITING)
+        self._waiting: FairQueue[tuple[socket.socket, str]] = FairQueue(
+            2 * max(shares.most, FEWEST)
+        )
+        """One client may have half of them: as many as are served at once."""
         self._beginning: set[asyncio.Task[object]] = set()
         self._closed = self._turning = False
         for each in sockets:

@@ -5,6 +5,8 @@ from functools import partial
 from math import inf
 from typing import Any
 
+from uvicorn._types import ASGISendEvent
+from uvicorn.protocols.utils import ClientDisconnected
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.frames import Frame
 from websockets.http11 import Request
@@ -15,7 +17,7 @@ from relguide_server.shares.clients import client_at
 
 A_SECOND = 256 * 1024
 """What a client may send, in bytes a second: three times what streams and scenes allow."""
-AT_ONCE = 1024 * 1024
+AT_ONCE = 256 * 1024
 """The same at once, after a while of silence [bytes]: room to be told why, for who is only fast."""
 A_FRAME = 256
 """What a frame counts beside its bytes, as each takes time, however small it is [bytes]."""
@@ -50,6 +52,7 @@ class Socket(WebSocketsSansIOProtocol):
         super().__init__(*arguments, **options)
         self._shares = shares
         self.whose = ""
+        self._is_cut_off = False
         self._began_at: Second = self.loop.time()
         self._left = float(AT_ONCE)
         self._counted_at = self.loop.time()
@@ -67,7 +70,7 @@ class Socket(WebSocketsSansIOProtocol):
     def connection_lost(self, exc: Exception | None) -> None:
         """The connection has ended."""
         self._shares.leave(self)
-        if not self.close_sent and self.loop.time() - self._began_at < BRIEF:
+        if not (self.close_sent or self._is_cut_off) and self.loop.time() - self._began_at < BRIEF:
             self._shares.note_hang_up(self.client[0] if self.client else "")
         super().connection_lost(exc)
 
@@ -76,6 +79,15 @@ class Socket(WebSocketsSansIOProtocol):
         super().handle_connect(event)
         if self.response.status_code == 101:
             self.scope["extensions"][KEEP] = {"keep": partial(self._shares.keep, self)}
+
+    async def send(self, message: ASGISendEvent) -> None:
+        """Send, unless it has been closed here, which the app learns of like any other end.
+
+        Uvicorn closes one whose client answers no pings, and takes what is sent then for a mistake.
+        """
+        if self.close_sent and message["type"] == "websocket.send":
+            raise ClientDisconnected
+        await super().send(message)
 
     def shed(self) -> None:
         """End it, to make room for another client's."""
@@ -128,5 +140,7 @@ class Socket(WebSocketsSansIOProtocol):
         gained = A_SECOND * (now - self._counted_at)
         self._left, self._counted_at = min(self._left + gained, AT_ONCE) - count, now
         if self._left < 0.0 and not self.transport.is_closing():
+            self._shares.note_flood(self.client[0] if self.client else "")
+            self._is_cut_off = True
             self.transport.abort()
         return self._left >= 0.0

@@ -29,12 +29,14 @@ class UnwelcomeFrame(Exception):
 
     Attributes:
         code: close code.
+        why: for the metrics.
         reason: a sentence, short enough for a close frame.
     """
 
     def __init__(self, code: int, reason: str) -> None:
         super().__init__(reason)
         self.code, self.reason = code, _shorten(reason)
+        self.why = "too_fast" if code == TOO_FAST else "not_understood"
 
 
 class FrameAllowance:

@@ -2,7 +2,8 @@
 
 import asyncio
 import secrets
-from collections.abc import Callable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from typing import Annotated
 
@@ -14,6 +15,7 @@ from relguide_server.flights.live_flight import FlightLabel, LiveFlight, Source
 from relguide_server.flights.stream import RESTART
 from relguide_server.http.errors import Refusal
 from relguide_server.http.metrics import Metrics
+from relguide_server.http.proxy import believed
 from relguide_server.records.entries import Outcome
 from relguide_server.records.recorder import Recorder
 from relguide_server.settings import ServiceSettings
@@ -22,6 +24,14 @@ REAP_PERIOD = 1.0
 """How often unwatched flights are looked for [s]."""
 TAKE_OFF = 60.0
 """How long a new flight may take to its first sample [s]: kernels may have to be compiled first."""
+TOO_MANY = (
+    "{count} flights are in the air, the most that this server flies at once. End one (DELETE), or "
+    "try again when one is no longer watched."
+)
+TOO_MANY_OF_YOURS = (
+    "You have {count} flights in the air, the most of one client's: half of all that this server "
+    "flies. End one (DELETE), or try again when one is no longer watched."
+)
 
 
 class LiveFleet:
@@ -30,6 +40,7 @@ class LiveFleet:
     def __init__(self, settings: ServiceSettings, metrics: Metrics) -> None:
         self._settings = settings
         self._metrics = metrics
+        self._speaks_for_many = believed(settings.proxies)
         self._flights: dict[str, LiveFlight] = {}
         self._tasks: list[asyncio.Task[None]] = []
 
@@ -86,6 +97,7 @@ class LiveFleet:
         replay: bool = False,
         modelled: bool = False,
         owner: str = "",
+        client: str = "",
         anchor: Anchor = UNANCHORED,
         seed: int = 0,
     ) -> LiveFlight:
@@ -101,13 +113,14 @@ class LiveFleet:
             replay: whether it is a recording.
             modelled: whether a modelled pilot flies it by hand.
             owner: who starts it, and may command it.
+            client: whose share of the flights it counts in.
             anchor: how its world lies on the earth.
             seed: of its random numbers.
 
         Raises:
             Refusal: 429, if too many fly already; 500, if it broke before its first sample.
         """
-        await self._make_room()
+        await self._make_room(client)
         label = FlightLabel(
             id=self._new_id(),
             scenario=scenario,
@@ -115,6 +128,7 @@ class LiveFleet:
             replay=replay,
             modelled=modelled,
             owner=owner,
+            client=client,
             anchor=anchor,
             seed=seed,
         )
@@ -149,23 +163,42 @@ class LiveFleet:
         self._flights.pop(flight.label.id, None)
         await flight.land(outcome)
 
-    async def _make_room(self) -> None:
-        now, limit = asyncio.get_running_loop().time(), self._settings.max_flights
-        while len(self._flights) >= limit:
-            unseen = [
-                flight
-                for flight in self
-                if not flight.watched
-                and (flight.over or now - flight.last_seen > self._settings.spare_after)
-            ]
-            if not unseen:
-                raise Refusal(
-                    429,
-                    f"{limit} flights are in the air, the most that this server flies at once. "
-                    "End one (DELETE), or try again when one is no longer watched.",
-                    headers={"Retry-After": str(round(self._settings.spare_after))},
-                )
-            await self._land(min(unseen, key=lambda flight: flight.last_seen), "unwatched")
+    async def _make_room(self, client: str) -> None:
+        """End a flight that nobody looks at, if there are as many as there may be.
+
+        Of the flights in the air only those of clients with more of them than this one are ended.
+
+        Raises:
+            Refusal: 429, where none can be; it says whose share is full.
+        """
+        most = self._settings.max_flights
+        share = most if self._speaks_for_many(client) else max(most // 2, 1)
+        while len(own := self._flights_of(client)) >= share:
+            await self._end_one(own, TOO_MANY_OF_YOURS.format(count=len(own)))
+        while len(self._flights) >= most:
+            counts = Counter(flight.label.client for flight in self)
+            others = [f for f in self if f.over or counts[f.label.client] > len(own)]
+            await self._end_one(others or own, TOO_MANY.format(count=most))
+
+    async def _end_one(self, flights: Sequence[LiveFlight], refusal: str) -> None:
+        """End one of some flights that nobody looks at: one that is over, else the one seen last.
+
+        Raises:
+            Refusal: if there is none.
+        """
+        now, spare = asyncio.get_running_loop().time(), self._settings.spare_after
+        unseen = [
+            flight
+            for flight in flights
+            if not flight.watched and (flight.over or now - flight.last_seen > spare)
+        ]
+        if not unseen:
+            raise Refusal(429, refusal, headers={"Retry-After": str(round(spare))})
+        spared = min(unseen, key=lambda flight: (not flight.over, flight.last_seen))
+        await self._land(spared, "unwatched")
+
+    def _flights_of(self, client: str) -> list[LiveFlight]:
+        return [flight for flight in self if flight.label.client == client]
 
     async def _tick(self) -> None:
         loop, period = asyncio.get_running_loop(), 1.0 / self._settings.stream_rate

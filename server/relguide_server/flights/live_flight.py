@@ -19,6 +19,7 @@ from relguide_server.flights.hands import Hands
 from relguide_server.flights.history import History
 from relguide_server.flights.pace import Pace
 from relguide_server.flights.stream import FLIGHT_BROKEN, FLIGHT_GONE, StreamClient
+from relguide_server.flights.watchers import Watchers
 from relguide_server.http.errors import run_logged
 from relguide_server.http.metrics import Metrics
 from relguide_server.http.security_headers import VERSION
@@ -55,6 +56,8 @@ class FlightLabel:
     """How its world lies on the earth."""
     owner: str = ""
     """Who started it, as `access.owner_of` says it."""
+    client: str = ""
+    """The client in whose share it counts, as `clients.client_of` says it."""
     seed: int = 0
     """Of its random numbers."""
 
@@ -82,9 +85,10 @@ class LiveFlight:
         self.history = History()
         self.last_seen = asyncio.get_running_loop().time()
         self.broken = False
-        self._flown = self._shown = False
+        self._flown = self._shown = self._counted = False
         self._recording = recording
         self.scene_viewers = 0
+        self.watchers, self.viewers = Watchers(label.client), Watchers(label.client)
         self.clients: set[StreamClient] = set()
         self._metrics = metrics
         self._source = source
@@ -186,6 +190,8 @@ class LiveFlight:
         self._shown = flown
         for document in documents:
             self.history.add(document)
+            if isinstance(document, FlightEnded):
+                self._count_end(document.reason)
         return documents
 
     def beat(self) -> None:
@@ -208,6 +214,7 @@ class LiveFlight:
                 client.offer(text, essential=essential)
         self.control.look(over=self.over)
         if self.broken:
+            self._count_end("broken")
             self.dismiss(FLIGHT_BROKEN, "This flight was stopped by a mistake of the server.")
 
     def join(self) -> StreamClient:
@@ -272,6 +279,7 @@ class LiveFlight:
             outcome: what is recorded of it, if it has not ended by itself.
         """
         self.pace.stop()
+        self._count_end("broken" if self.broken else outcome)
         self.dismiss(FLIGHT_GONE, "This flight is over and has been removed.")
         if self._stage is not None:
             stage, self._stage = self._stage, None
@@ -280,6 +288,12 @@ class LiveFlight:
         self._recording.end(outcome)
 
     # -- inside -----------------------------------------------------------------------------------
+
+    def _count_end(self, outcome: str) -> None:
+        """Count how it ended, the first time that it is known."""
+        if not self._counted:
+            self._counted = True
+            self._metrics.flights_ended.labels(outcome).inc()
 
     def _text(self, documents: Sequence[Document]) -> str:
         plane = self.label.plane

@@ -51,6 +51,7 @@ from relguide_server.records.cursors import place_of
 from relguide_server.records.entries import Outcome, Place, RecordSearch
 from relguide_server.records.recorder import Recorder
 from relguide_server.records.service import RecordsOf, RecordsService
+from relguide_server.shares.clients import client_of
 
 if TYPE_CHECKING:  # with SQLAlchemy: a service that records nothing does not load it
     from relguide_server.records.store import Store
@@ -226,7 +227,13 @@ async def list_documents(
     status_code=201,
     summary="Fly a recording again",
     responses={
-        **response(201, "It is in the air.", schema_of(FlightStatus), headers=("Location",)),
+        **response(
+            201,
+            "It is in the air.",
+            schema_of(FlightStatus),
+            headers=("Location",),
+            leads_to=("show_flight", "command_flight", "end_flight"),
+        ),
         **problem_responses(*BODY, *READING, "conflict", "too-many-flights", "mistake"),
     },
     openapi_extra=request_body(schema_of(NewReplay), {"rate": 10.0}),
@@ -257,6 +264,7 @@ async def replay_flight(
         record=lambda _: Recorder(datetime.fromisoformat(about["started_at"]).timestamp()),
         replay=True,
         owner=owner_of(request),
+        client=client_of(request.scope),
         anchor=_anchor(about["request"]),
         seed=about["seed"],
     )

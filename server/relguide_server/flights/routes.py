@@ -58,6 +58,7 @@ from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.peers import Peers
 from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
+from relguide_server.flights.watchers import TooManyWatch
 from relguide_server.http.access import expect_owner, may_command, owner_of
 from relguide_server.http.bodies import (
     address_of,
@@ -82,6 +83,7 @@ from relguide_server.readiness import PreparationOf
 from relguide_server.records.entries import FlightCard
 from relguide_server.records.recorder import Recorder
 from relguide_server.records.service import RecordsOf
+from relguide_server.shares.clients import client_of
 
 
 class NewFlight(RootModel[FlightRequest]):
@@ -125,6 +127,7 @@ async def list_scenarios(request: Request, catalogue: CatalogueOf) -> Response:
             "It is in the air.",
             schema_of(FlightStatus),
             headers=("Location", "Relguide-Recorded"),
+            leads_to=("show_flight", "command_flight", "end_flight", "show_recorded"),
         ),
         **problem_responses(*BODY, "too-many-flights", "mistake", "preparing"),
     },
@@ -174,6 +177,7 @@ async def start_flight(
         record=record,
         modelled=pilot_of(wanted.by_hand) is not None,
         owner=owner_of(request),
+        client=client_of(request.scope),
         anchor=departure.anchor,
         seed=wanted.seed,
     )
@@ -296,9 +300,15 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
         await websocket.close(UNKNOWN_FLIGHT, "There is no such flight: it has been removed.")
         return
     flight = fleet.find(flight_id)
-    if len(flight.clients) >= websocket.app.state.settings.max_watchers:
-        await websocket.close(TOO_MANY, "As many watch this flight as may: try again later.")
-        return
+    try:
+        with flight.watchers.joined_by(websocket):
+            await _show(flight, websocket)
+    except TooManyWatch as refused:
+        await websocket.close(TOO_MANY, str(refused))
+
+
+async def _show(flight: LiveFlight, websocket: WebSocket) -> None:
+    """Send ticks, and hear frames, until either side ends it."""
     client = flight.join()
     hear = partial(flight.hear, client, may_command=may_command(websocket, flight.label.owner))
     try:

@@ -25,6 +25,8 @@ from websockets.typing import Subprotocol
 from relguide_server.flights.frames import FrameAllowance
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
+from relguide_server.flights.watchers import TooManyWatch
+from relguide_server.http.metrics import Metrics
 from relguide_server.http.proxy import root_of
 from relguide_server.scene.guarded_port import HEADER, SECRET
 
@@ -104,9 +106,13 @@ async def relay(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
         return
     flight = fleet.find(flight_id)
     try:
-        await _relay(websocket, flight)
-    finally:
-        await flight.leave_scene()
+        with flight.viewers.joined_by(websocket):
+            try:
+                await _relay(websocket, flight)
+            finally:
+                await flight.leave_scene()
+    except TooManyWatch:
+        await websocket.close()
 
 
 async def _relay(websocket: WebSocket, flight: LiveFlight) -> None:
@@ -137,7 +143,10 @@ async def _relay(websocket: WebSocket, flight: LiveFlight) -> None:
             upward.cancel()
         for task in done:
             refused = task.result()  # a mistake of ours in there is raised here
-            if refused is not None:
+            if refused is not None and websocket.application_state is WebSocketState.CONNECTED:
+                metrics: Metrics = websocket.app.state.metrics
+                why = "too_fast" if refused is TOO_FAST else "not_passed_on"
+                metrics.frames_refused.labels(why).inc()
                 with suppress(WebSocketDisconnect):
                     await websocket.close(*refused)
     finally:

@@ -5,9 +5,10 @@ from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from relguide.contract.upstream import Upstream
+from relguide_server.doors.sockets import SHED
 from relguide_server.flights.frames import (
     LONGEST,
     MOST,
@@ -32,10 +33,11 @@ CLOSE_CODES = {
     UNKNOWN_FLIGHT: "there is no such flight",
     FLIGHT_GONE: "the flight was removed",
     NOT_UNDERSTOOD: f"the client sent what is no frame of the stream, or more than {LONGEST} bytes",
-    TOO_MANY: "as many watch the flight as may",
+    TOO_MANY: "as many watch the flight as may, or as many of one client",
     TOO_FAST: f"the client sent more than {MOST} frames a second",
     FLIGHT_BROKEN: "the flight was stopped by a mistake of the server",
     RESTART: "the service stops: it may be back in a moment",
+    SHED: "the server is full, and this client has the most of its connections",
 }
 """What each says."""
 
@@ -97,6 +99,9 @@ class StreamClient:
             for task in done:
                 task.result()  # a mistake of ours in there is raised here
         except UnwelcomeFrame as unwelcome:
+            self._metrics.frames_refused.labels(unwelcome.why).inc()
+            if websocket.application_state is not WebSocketState.CONNECTED:
+                return  # it was cut off meanwhile
             with suppress(WebSocketDisconnect):
                 await websocket.close(unwelcome.code, unwelcome.reason)
 

@@ -186,8 +186,9 @@ class Access:
         if needed not in MAY[role]:
             allowed = " or ".join(one for one in ROLES if needed in MAY[one])
             return _refuse(scope, 403, TOO_LITTLE.format(role=role, allowed=allowed))
-        owner = "" if "command_all" in MAY[role] else sha256(token.encode()).hexdigest()
-        _note(scope, role, owner)
+        shown = sha256(token.encode()).hexdigest()
+        _note(scope, role, "" if "command_all" in MAY[role] else shown)
+        scope["state"]["token"] = shown  # for `client_of`
         return None
 
     def _role(self, token: str) -> Role | None:

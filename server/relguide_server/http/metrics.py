@@ -1,6 +1,7 @@
 """What the service counts of itself, for Prometheus."""
 
 from collections.abc import Callable, Iterable
+from importlib.metadata import version
 
 import prometheus_client
 from prometheus_client import (
@@ -9,6 +10,7 @@ from prometheus_client import (
     Gauge,
     GCCollector,
     Histogram,
+    Info,
     ProcessCollector,
 )
 from prometheus_client.core import Metric
@@ -51,6 +53,17 @@ class Metrics:
             buckets=REQUEST_BUCKETS,
             registry=self.registry,
         )
+        self.job_waits = Histogram(
+            "relguide_job_wait_seconds",
+            "Time that a job waited for a worker.",
+            ("kind",),
+            buckets=REQUEST_BUCKETS,
+            registry=self.registry,
+        )
+        self.frames_refused = counter(
+            "relguide_frames_refused", "Frames that closed the socket they came on.", "why"
+        )
+        self.flights_ended = counter("relguide_flights_ended", "Flights ended.", "outcome")
         self.flights_started = counter("relguide_flights_started", "Flights started.")
         self.flight_seconds = counter("relguide_flight_seconds", "Flight time flown.")
         self.flight_seconds_asked = counter(
@@ -84,11 +97,15 @@ class Metrics:
             "Largest loss of an audited plan by network.",
             registry=self.registry,
         )
+        build = Info("relguide_build", "What runs here.", registry=self.registry)
+        build.info({"version": version("relguide")})
         self._largest_loss = 0.0
         self._plans: dict[str, Counter] = {}
         self._requests: dict[tuple[str, str, int], tuple[Counter, Histogram]] = {}
         for status in ("planned", "no_plan", "invalid"):
             self.plans.labels(status)
+        for why in ("not_understood", "too_fast", "not_passed_on"):
+            self.frames_refused.labels(why)
         for answer in ("same", "different"):
             self.drift_audits.labels(answer)
 
@@ -124,6 +141,10 @@ class Metrics:
             known = self._requests[key] = counted, timed  # to look them up takes 10 µs
         known[0].inc()
         known[1].observe(seconds)
+
+    def note_wait(self, kind: str, seconds: float) -> None:
+        """Note how long a job of a kind waited for a worker [s]."""
+        self.job_waits.labels(kind).observe(seconds)
 
     def count_audit(self, *, differs: bool, loss: float) -> None:
         """Count one plan by network that was planned again exactly.

@@ -105,6 +105,7 @@ def response(
     *,
     headers: Iterable[str] = (),
     media: str = JSON,
+    leads_to: Iterable[str] = (),
 ) -> dict[int | str, dict[str, Any]]:
     """One entry of the `responses=` of a route.
 
@@ -114,9 +115,13 @@ def response(
         schema: of its body.
         headers: of `HEADERS`, beyond those that all answers have.
         media: type of its body.
+        leads_to: operations that take its `id` as `flight_id`.
     """
     said = {"description": description, "content": {media: {"schema": schema}}}
-    return {status: {**said, "headers": header_references(headers)}}
+    flight = {"flight_id": "$response.body#/id"}
+    links = {name: {"operationId": name, "parameters": flight} for name in leads_to}
+    linked = {"links": links} if links else {}
+    return {status: {**said, "headers": header_references(headers), **linked}}
 
 
 def tagged_response(description: str, schema: dict[str, Any]) -> dict[int | str, dict[str, Any]]:

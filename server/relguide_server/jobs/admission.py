@@ -12,6 +12,7 @@ from time import perf_counter
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from relguide.units import Second
+from relguide_server.shares.clients import client_of
 from relguide_server.shares.fair_queue import FairQueue
 
 LONG: Second = 0.002
@@ -30,8 +31,7 @@ class Admission:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one connection, when its turn comes."""
         if scope["type"] == "http":
-            address = scope.get("client")
-            await self._wait_for_turn(address[0] if address else "")
+            await self._wait_for_turn(client_of(scope))
         await self.app(scope, receive, send)
 
     async def _wait_for_turn(self, client: str) -> None:

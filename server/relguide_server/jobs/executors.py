@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from relguide.units import Second
 from relguide_server.http.errors import log
 from relguide_server.jobs.outcomes import Outcome, outcome_of
 from relguide_server.jobs.worker import LENGTH
@@ -101,6 +102,12 @@ class ProcessExecutor:
         """
         self._idle = idle
         self._started: asyncio.Task[_Process] | None = None
+        self._spent: Second = 0.0
+
+    @property
+    def processor_time(self) -> Second:
+        """What its processes spent of a processor, those that have ended included [s]."""
+        return self._spent + (processor_time(self.pid) if self.pid else 0.0)
 
     @property
     def pid(self) -> int:
@@ -130,6 +137,7 @@ class ProcessExecutor:
         if started is None:
             return
         ended = await started
+        self._spent += processor_time(ended.process.pid)
         ended.process.kill()
         if not ended.jobs.is_closing():  # it is, once the process has died
             ended.jobs.abort()
@@ -153,6 +161,16 @@ async def _start_process(*, idle: bool) -> _Process:
     jobs, _ = await loop.connect_write_pipe(asyncio.BaseProtocol, process.stdin)
     reading, outcomes = await loop.connect_read_pipe(_Outcomes, process.stdout)
     return _Process(process, jobs, outcomes, reading)
+
+
+def processor_time(pid: int) -> Second:
+    """What a process has spent of a processor [s]; 0 where the system does not say so."""
+    try:
+        with open(f"/proc/{pid}/stat") as file:
+            fields = file.read().rpartition(")")[2].split()
+    except OSError:
+        return 0.0
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")  # in and for it
 
 
 class ThreadExecutor:

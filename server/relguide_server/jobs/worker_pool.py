@@ -13,8 +13,10 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from math import inf
+from time import monotonic
 from typing import Any, Literal, get_args
 
+from relguide.units import Second
 from relguide_server.http.errors import Refusal, log
 from relguide_server.http.logs import SeldomLine
 from relguide_server.jobs.executors import Executor, ProcessExecutor, ThreadExecutor
@@ -43,7 +45,7 @@ STOPPING = "The service is stopping: it may be back in a moment."
 INTERRUPTED = "The process that worked on this ended before its time: try again."
 THREADS = 4
 """Hands where jobs are done by threads."""
-PULSE = 1.0
+PULSE = 0.1
 """A hand that answered so short a time ago is not asked again whether it does [s]."""
 TO_ANSWER = 3.0
 """How long a hand that has nothing else to do may take to answer [s]."""
@@ -54,6 +56,7 @@ class _Job:
     work: tuple[Callable[..., Any], tuple[Any, ...]]
     patience: float
     heard: Callable[[Any], None] | None = None
+    put_at: Second = field(default_factory=monotonic)
     outcome: asyncio.Future[Outcome] = field(
         default_factory=lambda: asyncio.get_running_loop().create_future()
     )
@@ -80,13 +83,21 @@ class _Job:
 class WorkerPool:
     """Hands and queues. Lives on the event loop, from `start` to `stop`."""
 
-    def __init__(self, count: int, *, queue: int) -> None:
+    def __init__(
+        self,
+        count: int,
+        *,
+        queue: int,
+        note_wait: Callable[[str, Second], None] = lambda kind, waited: None,
+    ) -> None:
         """Prepare them.
 
         Args:
             count: processes; with 0, threads of this process do the jobs.
             queue: most jobs of a kind that wait.
+            note_wait: told of each job that is begun its kind, and how long it waited [s].
         """
+        self._note_wait = note_wait
         self._hands: Sequence[Executor] = (
             [ProcessExecutor(idle=k > 0) for k in range(count)]
             or [ThreadExecutor() for _ in range(THREADS)]
@@ -142,6 +153,12 @@ class WorkerPool:
         """The ids of the processes that run."""
         executors = [executor for executor in self._hands if isinstance(executor, ProcessExecutor)]
         return [executor.pid for executor in executors if executor.pid]
+
+    @property
+    def processor_time(self) -> Second:
+        """What all processes spent of a processor until now, those that have ended included [s]."""
+        executors = [executor for executor in self._hands if isinstance(executor, ProcessExecutor)]
+        return sum(executor.processor_time for executor in executors)
 
     def has_room(self, kind: Kind, client: str) -> bool:
         """Whether one more job of a client may wait."""
@@ -232,6 +249,7 @@ class WorkerPool:
             self._ready.add(executor)
             kind, job = await self._next(executor)
             await self._load(executor, load)  # its process may have ended while it waited
+            self._note_wait(kind, monotonic() - job.put_at)
             if not job.outcome.done():  # its client may have left before this hand came to it
                 await self._finish(executor, job)
                 self.done[kind] += 1

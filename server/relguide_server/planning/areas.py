@@ -27,7 +27,6 @@ from relguide.planning.words import HORIZON
 from relguide_server.flights.live_fleet import FleetOf, LiveFleet
 from relguide_server.http.bodies import (
     JSON,
-    address_of,
     json_answer,
     parse_json,
     read_body,
@@ -47,6 +46,7 @@ from relguide_server.jobs.worker_pool import WorkerPool
 from relguide_server.planning.plans import EXAMPLE
 from relguide_server.planning.tasks import draw_area
 from relguide_server.readiness import Preparation, PreparationOf
+from relguide_server.shares.clients import client_of
 
 MOST_SEARCHED = 1_200
 """Most nodes of a grid that is searched exactly: some seconds of work."""
@@ -212,7 +212,7 @@ async def _draw(
         asked.exact,
         asked.times,
         patience=LONGEST,
-        client=address_of(request),
+        client=client_of(request.scope),
     )
     return json_answer(await unless_left(request, drawing))
 

@@ -10,7 +10,7 @@ from starlette.responses import Response
 
 from relguide.contract.messages import ScenarioFlightRequest, Seed
 from relguide.flying.scenarios import SCENARIOS, no_scenario
-from relguide_server.http.bodies import address_of, unless_left
+from relguide_server.http.bodies import unless_left
 from relguide_server.http.errors import Refusal
 from relguide_server.http.etags import has, headers_of, tag_of
 from relguide_server.http.openapi import (
@@ -26,6 +26,7 @@ from relguide_server.planning.plan_service import PlanService
 from relguide_server.planning.simulations import LONGEST
 from relguide_server.planning.tasks import record_flight
 from relguide_server.readiness import PreparationOf
+from relguide_server.shares.clients import client_of
 
 LINES = "application/x-ndjson"
 KEPT = 16 * 1024 * 1024
@@ -118,7 +119,7 @@ async def fly_scenario(
             ScenarioFlightRequest(scenario=name, seed=seed),
             plan_service.planner_for(planner),
             patience=LONGEST,
-            client=address_of(request),
+            client=client_of(request.scope),
         )
         found = kept.put(asked, await unless_left(request, flying))
     return _answer(found, request)

@@ -37,6 +37,7 @@ from relguide_server.http.openapi import (
 from relguide_server.http.query import KNOWN_PARAMETERS_ONLY, QueryRoute
 from relguide_server.planning.plan_service import PlanService, Wish
 from relguide_server.planning.tasks import MAX_BATCH
+from relguide_server.shares.clients import client_of
 
 MAX_BODY = 64 * 1024
 """Longest body with one situation [bytes]."""
@@ -221,7 +222,7 @@ async def make_plan(request: Request, query: Annotated[PlanQuery, Query()]) -> R
     end = monotonic() + wish.budget
     plan_service: PlanService = request.app.state.plan_service
     body = await read_body(request, JSON, most=MAX_BODY)
-    client = address_of(request)
+    client = client_of(request.scope)
     answered = plan_service.answer_at_once(body, wish, client=client)
     if answered is None:
         planning = plan_service.answer_by_worker(body, wish, end, client=client)
@@ -231,7 +232,7 @@ async def make_plan(request: Request, query: Annotated[PlanQuery, Query()]) -> R
         planner=wish.planner or "",
         status=answered.status,
         seconds=answered.seconds,
-        asked_by=client,
+        asked_by=address_of(request),
     )
     media_type = GEOJSON if wish.form == "geojson" else JSON
     return json_answer(plan_service.count(answered), media_type=media_type)
@@ -255,7 +256,7 @@ async def compare_planners(request: Request, query: Annotated[CompareQuery, Quer
     """
     plan_service: PlanService = request.app.state.plan_service
     body = await read_body(request, JSON, most=MAX_BODY)
-    compared = plan_service.compare(body, query.max_ms * 1e-3, client=address_of(request))
+    compared = plan_service.compare(body, query.max_ms * 1e-3, client=client_of(request.scope))
     return json_answer(await unless_left(request, compared))
 
 
@@ -303,10 +304,10 @@ async def make_plans(request: Request, query: Annotated[BatchQuery, Query()]) ->
         lines = [line for line in body.splitlines() if line.strip()]
         if len(lines) > MAX_BATCH:
             raise Refusal(422, f"At most {MAX_BATCH} situations a request, not {len(lines)}.")
-        answers = plan_service.answer_batch(lines, wish, client=address_of(request))
+        answers = plan_service.answer_batch(lines, wish, client=client_of(request.scope))
         first = await unless_left(request, anext(answers, []))
         return StreamingResponse(_write_lines(lines, first, answers), media_type=NDJSON)
-    listed = _answer_list(body, plan_service, wish, address_of(request))
+    listed = _answer_list(body, plan_service, wish, client_of(request.scope))
     return json_answer(await unless_left(request, listed))
 
 

@@ -17,7 +17,6 @@ from relguide.contract.simulation_bodies import (
 from relguide_server.flights.flight_requests import ordered_in, scenario_of
 from relguide_server.http.bodies import (
     JSON,
-    address_of,
     json_answer,
     parse_json,
     read_body,
@@ -39,6 +38,7 @@ from relguide_server.jobs.worker_pool import WorkerPool
 from relguide_server.planning.plan_service import PlanService
 from relguide_server.planning.tasks import simulate
 from relguide_server.readiness import PreparationOf
+from relguide_server.shares.clients import client_of
 
 LONGEST = 60.0
 """A flight that takes longer is ended [s]; most take a second."""
@@ -97,7 +97,7 @@ async def simulate_flights(
                 one,
                 plan_service.planner_for(planner),
                 patience=LONGEST,
-                client=address_of(request),
+                client=client_of(request.scope),
             )
             return figures
 

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from relguide.atc.bounds import cleared_stray
 from relguide.atc.conformance import Memory, gone, shown, still_covers, watch
 from relguide.atc.documents import Deviation
 from relguide.atc.picture import Seen
@@ -273,6 +274,7 @@ def test_while_it_is_silent_what_validation_adds_holds(
     x, y = track.place(t)
     allowed = hypot(SETTINGS.across.caution, SETTINGS.along.caution * track.fastest)
     assert hypot(seen.x - x, seen.y - y) <= allowed * (1.0 + 1e-9)
+    assert allowed <= cleared_stray(track, SETTINGS) * (1.0 + 1e-9)
     assert abs(above) <= SETTINGS.level.caution
 
 

@@ -210,6 +210,17 @@ def test_what_is_over_is_expired():
     assert "expired" in reasons(validate(ASKED, picture, late))
 
 
+def test_once_joined_it_is_looked_at_ever_further_on():
+    late = ASKED.joins + 60.0
+    then = LEADER.path.place(late)
+    leader = replace(LEADER, t=late, x=then[0], y=then[1])
+    traffic = replace(seen_of(crossing(0.0, t=ASKED.joins - NOW + 110.0), late + 120.0), t=late)
+    picture = Picture(as_of=late, aircraft=(leader, traffic))
+    assert reasons(validate(ASKED, picture, late)) == ["separation"]
+    alone = Picture(as_of=late, aircraft=(leader,))
+    assert validate(ASKED, alone, late).verdict == "acceptable"
+
+
 def test_a_join_beyond_the_horizon_is_said():
     path = drawn_path(np.random.default_rng(2), joins_after=1_500.0)
     far, leader = manoeuvre_on(path, d_min=0.0)

@@ -110,6 +110,15 @@ def test_the_same_wind_may_be_given_twice() -> None:
     assert twice == read(wind=WEST)
 
 
+def test_the_two_aircraft_are_called_as_the_request_says() -> None:
+    own = read(pursuer_ident="DLH1", leader_ident="AFR2")
+    assert (own.pursuer_ident, own.leader_ident) == ("DLH1", "AFR2")
+    with pytest.raises(ContractError, match="leader_ident: is what the pursuer is called"):
+        read(pursuer_ident="AFR2", leader_ident="AFR2")
+    with pytest.raises(ContractError, match="is what the leader of a flight is called"):
+        read(leader_ident="BAW12", traffic=AMID["traffic"])
+
+
 @pytest.mark.parametrize("name", ["air", "believed_air", "surveillance"])
 def test_plans_say_that_flights_read_it(name: str) -> None:
     with pytest.raises(ContractError, match=f"{name}: belongs in the situation of a flight"):

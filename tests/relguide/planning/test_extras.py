@@ -10,7 +10,7 @@ import pytest
 from relguide.planning.extras import EXTRAS, MissingExtra, add_command, need
 
 PROJECT = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())["project"]
-IMPORTED_AS = {"quickjs_ng": "quickjs"}
+IMPORTED_AS = {"libasterix": "asterix", "quickjs_ng": "quickjs"}
 """Packages that are imported by another name."""
 
 

@@ -112,7 +112,7 @@ def test_sources_are_bounded(client: TestClient) -> None:
 
 def test_who_may_fly_may_not_paint_the_sky() -> None:
     with TestClient(ideal_app(tokens=SETTING)) as client:
-        for who, status in (("view", 403), ("fly", 403), ("control", 200)):
+        for who, status in (("view", 403), ("fly", 403), ("atc", 200), ("control", 200)):
             headers = {"Authorization": f"Bearer {TOKENS[who]}"}
             assert client.put(TRAFFIC, json=report("A"), headers=headers).status_code == status
             assert client.get(TRAFFIC, headers=headers).status_code == 200

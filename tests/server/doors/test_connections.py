@@ -12,6 +12,7 @@ from contextlib import ExitStack, contextmanager, suppress
 import httpx2 as httpx
 import pytest
 from relguide_server.doors.connection_shares import HANG_UPS, TOLD
+from starlette.responses import Response
 
 from tests.server.serving import ideal_app, serve
 
@@ -221,8 +222,8 @@ def test_who_does_not_read_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) ->
     app = ideal_app()
 
     @app.get("/large")
-    async def answer() -> list[str]:
-        return ["x" * 1_000_000] * 20
+    async def answer() -> Response:
+        return Response(b"x" * 20_000_000)
 
     with serve(app) as address, connected(address) as deaf:
         deaf.sendall(b"GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n")

@@ -1,11 +1,14 @@
 """A WebSocket that floods is cut off, also one that ignores that it was closed."""
 
+import asyncio
 import socket
 import time
 from collections.abc import Iterator
 
 import httpx2 as httpx
 import pytest
+from relguide_server.doors.sockets import Socket
+from uvicorn.protocols.utils import ClientDisconnected
 
 from relguide.contract.protocol import STREAM
 from tests.server.http.test_access import FLIGHT
@@ -18,7 +21,7 @@ PATIENCE = 5.0
 
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
-    with serve(ideal_app()) as address:
+    with serve(ideal_app(), proxies="127.0.0.1") as address:  # which may dial again at once
         yield address
 
 
@@ -80,3 +83,21 @@ def test_the_others_go_on_meanwhile(address: str) -> None:
 def test_one_that_pings_twice_a_second_stays(address: str) -> None:
     with dial(address) as polite:
         assert not is_cut_off(polite, frame(PING), pause=0.5)
+
+
+def test_one_that_was_cut_off_is_not_heard_for_a_while() -> None:
+    with serve(ideal_app()) as address:
+        with dial(address) as flooding:
+            assert is_cut_off(flooding, frame(PING) * 1000)
+        with pytest.raises((httpx.ConnectError, httpx.ReadError, httpx.RemoteProtocolError)):
+            httpx.get(f"http://{address}/api/v1/flights")
+        time.sleep(2.0)
+        assert httpx.get(f"http://{address}/api/v1/flights").is_success
+
+
+def test_what_is_sent_after_it_was_closed_here_is_sent_to_nobody() -> None:
+    """As when a client answers no pings: the app had not heard of it yet."""
+    closed = Socket.__new__(Socket)
+    closed.close_sent = True
+    with pytest.raises(ClientDisconnected):
+        asyncio.run(closed.send({"type": "websocket.send", "text": "x"}))

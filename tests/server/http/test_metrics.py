@@ -2,15 +2,22 @@
 
 import asyncio
 import re
+import socket
+import time
+from importlib.metadata import version
 
+import httpx2 as httpx
 import pytest
 from prometheus_client.openmetrics.parser import text_string_to_metric_families
 from relguide_server.http.metrics import PLAN_BUCKETS, Metrics
 from relguide_server.jobs.worker_pool import KINDS
+from websockets.asyncio.client import connect
+from websockets.typing import Subprotocol
 
+from relguide.contract.protocol import PROTOCOL
 from tests.bodies import BODY
 from tests.server.flown import ideal_flight
-from tests.server.serving import TestClient, ideal_app
+from tests.server.serving import TestClient, ideal_app, serve
 
 OPEN_METRICS = "application/openmetrics-text; version=1.0.0"
 
@@ -59,6 +66,42 @@ def test_requests_plans_queues_and_errors_are_counted() -> None:
     described = {f.name: f.documentation for f in text_string_to_metric_families(open_text.text)}
     assert described["relguide_flights_running"] == "Flights in the air."
     assert all(text.endswith(".") for text in described.values())
+
+
+def test_doors_streams_flights_and_workers_are_measured() -> None:
+    async def send_nonsense(url: str) -> None:
+        async with connect(url, subprotocols=[Subprotocol(PROTOCOL)], proxy=None) as stream:
+            await stream.send("nonsense")
+            await stream.wait_closed()
+
+    app = ideal_app()
+    with serve(app) as address, httpx.Client(base_url=f"http://{address}") as client:
+        flight = client.post("/api/v1/flights", json={"scenario": "ideal"}).json()
+        asyncio.run(send_nonsense(f"ws://{address}{flight['stream_url']}"))
+        client.delete(f"/api/v1/flights/{flight['id']}")
+        client.post("/api/v1/plans?include=alternatives&max_ms=10000", json=BODY)
+        host, _, port = address.partition(":")
+        with socket.create_connection((host, int(port))) as hurried:
+            hurried.sendall(b"GET /healthz")
+            time.sleep(0.1)
+        time.sleep(0.1)
+        text = client.get("/metrics", headers={"Accept": OPEN_METRICS}).text
+    found = {
+        sample.name + "".join(str(value) for value in sample.labels.values()): sample.value
+        for family in text_string_to_metric_families(text)
+        for sample in family.samples
+    }
+    assert found[f"relguide_build_info{version('relguide')}"] == 1
+    assert found["relguide_connections"] == 1
+    assert found["relguide_hang_ups_total"] == 1
+    for what in ("share", "full", "hang_ups"):
+        assert found[f"relguide_connections_refused_total{what}"] == 0
+    assert found["relguide_connections_shed_total"] == 0
+    assert found["relguide_sockets_cut_off_total"] == 0
+    assert found["relguide_frames_refused_totalnot_understood"] == 1
+    assert found["relguide_flights_ended_totalremoved"] == 1
+    assert found["relguide_job_wait_seconds_counttrials"] == 1
+    assert found["relguide_worker_cpu_seconds_total"] == 0  # threads of the service do the work
 
 
 @pytest.mark.slow

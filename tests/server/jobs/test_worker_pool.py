@@ -100,6 +100,20 @@ def test_a_process_that_dies_while_it_waits_costs_nobody_an_answer(how: int) -> 
     with_workers(1, scene)
 
 
+def test_what_workers_spent_is_kept_when_they_end() -> None:
+    async def scene(workers: WorkerPool) -> None:
+        await workers.do("plans", sum, range(20_000_000), patience=ANY)
+        spent = workers.processor_time
+        assert spent > 0.05
+        os.kill(workers.processes[0], signal.SIGKILL)
+        while workers.processes:
+            await asyncio.sleep(0.01)
+        await workers.do("plans", os.getpid, patience=ANY)
+        assert workers.processor_time >= spent
+
+    with_workers(1, scene)
+
+
 def test_a_client_that_leaves_takes_its_job_along(caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level("INFO")
 

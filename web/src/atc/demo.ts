@@ -10,6 +10,8 @@ const PLACE = { lat: 48.0, lon: 9.0 } as const;
 const LEVEL = 9449;
 
 interface Pair {
+  /** Callsigns of the pursuer and its leader. */
+  readonly called: readonly [string, string];
   /** The leader: east and north of that place [NM], its heading [deg]. */
   readonly leader: readonly [number, number, number];
   /** The pursuer from there: behind, to the left [NM], and how far it heads to the right of it [deg]. */
@@ -22,11 +24,41 @@ interface Pair {
 
 /** The second and the third cross; the fifth is above all others. */
 const PAIRS: readonly Pair[] = [
-  { leader: [-60, 45, 95], pursuer: [9, 8, 25], spacing: 6, level: LEVEL },
-  { leader: [-37, -28, 60], pursuer: [10, -7, -20], spacing: 6, level: LEVEL },
-  { leader: [2, -38, 330], pursuer: [9, 8, 25], spacing: 7, level: LEVEL },
-  { leader: [75, 62, 200], pursuer: [10, -8, -25], spacing: 6, level: LEVEL },
-  { leader: [88, -30, 290], pursuer: [9, 7, 20], spacing: 8, level: LEVEL + 610 },
+  {
+    called: ["DLH1AB", "AFR22"],
+    leader: [-60, 45, 95],
+    pursuer: [9, 8, 25],
+    spacing: 6,
+    level: LEVEL,
+  },
+  {
+    called: ["BAW342", "KLM61"],
+    leader: [-37, -28, 60],
+    pursuer: [10, -7, -20],
+    spacing: 6,
+    level: LEVEL,
+  },
+  {
+    called: ["SWR85", "AUA7"],
+    leader: [2, -38, 330],
+    pursuer: [9, 8, 25],
+    spacing: 7,
+    level: LEVEL,
+  },
+  {
+    called: ["IBE3", "TAP418"],
+    leader: [75, 62, 200],
+    pursuer: [10, -8, -25],
+    spacing: 6,
+    level: LEVEL,
+  },
+  {
+    called: ["SAS5", "FIN90"],
+    leader: [88, -30, 290],
+    pursuer: [9, 7, 20],
+    spacing: 8,
+    level: LEVEL + 610,
+  },
 ];
 /** True airspeeds of pursuers and leaders [kt]. */
 const FAST = 450;
@@ -44,11 +76,13 @@ function poseOf(east: number, north: number, heading: number, tas: number, level
   };
 }
 
-function situationOf({ pursuer, leader, spacing, level }: Pair): FlownSituationBody {
+function situationOf({ called, pursuer, leader, spacing, level }: Pair): FlownSituationBody {
   const [[east, north, heading], [behind, left, turned]] = [leader, pursuer];
   const [s, c] = [Math.sin(heading * DEG), Math.cos(heading * DEG)];
   const [x, y] = [east - behind * s - left * c, north - behind * c + left * s];
   return {
+    pursuer_ident: called[0],
+    leader_ident: called[1],
     pursuer: { ...poseOf(x, y, heading + turned, FAST, level), max_bank_deg: 25 },
     leader: poseOf(east, north, heading, SLOW, level),
     slot_distance_m: spacing * NM,

@@ -22,10 +22,12 @@ const COLOURS: Record<OrderWord, Colour> = {
 export function OrderStatus({ shown }: LayerProps) {
   const order = usePart(shown, (picture) => picture.order);
   const colour = useComputed(() => COLOURS[order.value.split(" ")[0] as OrderWord] ?? "label");
+  // up to nine letters in full size: UNABLE LDR INTENT fills the column in the small one
+  const size = useComputed(() => (order.value.length > 9 ? 15 : 20));
   const { width } = READOUTS.fma;
   return (
     <g class="nd-atc">
-      <Cell x={0.9 * width} y={48} text={order} colour={colour} anchor="middle" size={20} />
+      <Cell x={0.9 * width} y={48} text={order} colour={colour} anchor="middle" size={size} />
     </g>
   );
 }

@@ -7,7 +7,7 @@ interface CellProps {
   readonly y: number;
   readonly text: string | ReadonlySignal<string>;
   readonly colour: Colour | ReadonlySignal<Colour>;
-  readonly size?: number;
+  readonly size?: number | ReadonlySignal<number>;
   readonly anchor?: "start" | "middle" | "end";
 }
 

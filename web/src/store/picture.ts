@@ -368,10 +368,23 @@ const CLEARANCE: Record<ClearanceStatus, OrderWord> = {
 function clearanceText({ clearance, t }: Moment, state: Guidance): Order {
   if (clearance === null || state === "off") return "";
   if (clearance.clearance === "over" && t - clearance.t_s > NEWS) return "";
-  const about = clearance.automated ? "AUTO" : (clearance.reason ?? "").replaceAll("_", " ");
+  const { automated, reason = "" } = clearance;
+  const about = SHORT[reason] ?? (automated ? "AUTO" : reason.toUpperCase());
   const word = CLEARANCE[clearance.clearance];
-  return about === "" ? word : `${word} ${about.toUpperCase()}`;
+  return about === "" ? word : `${word} ${about}`;
 }
+/** Reasons that are too long for the column, and those that say nothing new there. */
+const SHORT: Readonly<Record<string, string>> = {
+  separation: "TRAFFIC",
+  traffic_without_intent: "TRAFFIC",
+  stale_picture: "DATA",
+  leader_disagrees: "LDR INTENT",
+  slot_taken: "SLOT",
+  horizon: "TIME",
+  conformance: "",
+  controller: "",
+  crew: "",
+};
 
 /** Within so much of the slot, along and across the leader's route, own ship has joined [m]. */
 const GATE = { along: 0.2 * NM, across: 0.1 * NM };
