@@ -125,3 +125,5 @@ PROTOCOL = protocol(typescript_body(docs=False))
 STREAM = "relguide-stream-2"
 """Another name of it, for programs: it changes only when something that it had is no more, or means
 something else. What is new may be added under the same name."""
+ATC_STREAM = "relguide-atc-1"
+"""The same of the controllers' stream."""

@@ -17,7 +17,7 @@ from relguide.contract.clearance_bodies import (
     ClearanceReply,
     ClearanceTrial,
 )
-from relguide.contract.protocol import PROTOCOL
+from relguide.contract.protocol import ATC_STREAM, PROTOCOL
 from relguide.contract.refusal import ContractError, parse
 from relguide.contract.upstream import Upstream
 from relguide.contract.wire import placed_to_wire
@@ -39,9 +39,6 @@ from relguide_server.shares.clients import client_of
 
 MOST = 500
 """Most clearances in an answer."""
-ATC_STREAM = "relguide-atc-1"
-"""Sub-protocol of the controllers' stream for programs: it changes only when something that it had
-is no more, or means something else."""
 NOT_YOURS = "This clearance is another's flight's: you do not answer it."
 ONLY_LISTEN = "This stream is only listened to: answers and replies go by REST."
 ASK = {"flight_id": "3f2a9c0d71be"}
@@ -105,7 +102,9 @@ async def ask_clearance(
     except ContractError as error:
         raise refusal_of(error) from None
     if dry_run:
-        found = await desk.try_out(asked.manoeuvre, asked.sky)
+        found = await desk.try_out(
+            asked.manoeuvre, asked.sky, flight_id=asked.flight_id, pursuer=asked.pursuer
+        )
         plane = desk.skies.plane(asked.sky)
         place = None if plane is None else plane.to_geodetic
         return json_answer(

@@ -11,8 +11,9 @@ from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue, models_jso
 from pydantic_core.core_schema import TaggedUnionSchema
 from starlette.responses import HTMLResponse, Response
 
+from relguide.contract.clearance_bodies import AtcFrame
 from relguide.contract.messages import Tick
-from relguide.contract.protocol import PROTOCOL, STREAM
+from relguide.contract.protocol import ATC_STREAM, PROTOCOL, STREAM
 from relguide.contract.upstream import ControlAnswer, GiveBack, StickMove, TakeControl
 from relguide_server.flights.control import MOST_RATE
 from relguide_server.flights.frames import LONGEST, MOST
@@ -35,8 +36,16 @@ from the next second of flight on, and says where its stick is. Each step of the
 at once. After {SILENCE:g} s without a frame the stick is neutral. When the client gives control
 back or is gone, the autopilot flies again. A frame is JSON in text of {LONGEST} bytes at most, and
 {MOST} of them may come a second."""
+ATC_DESCRIPTION = f"""What happens at air traffic control's desk: clearances as they change, what is
+found of them anew, deviations, and once a second the traffic of each sky. Ask for the sub-protocol
+`{ATC_STREAM}`. Documents are numbered, and the numbers of a later start of the service are higher.
+The first frame holds all that stands (`snapshot`), or, with the query `from`, all after that number
+but traffic, if that is still known. While such a stream is open of who may answer, the automation
+does not answer in the controller's place, unless the query says `answers=false`. Clients send
+nothing."""
 LISTEN = "What a flight does, as it does it."
 FLY = "A crew flies it by hand."
+OVERSEE = "What happens at air traffic control's desk."
 SENT: dict[str, tuple[type[BaseModel], str]] = {
     "tick": (Tick, "What happened since the last one"),
     "control": (ControlAnswer, "What became of asking for control"),
@@ -46,7 +55,26 @@ HEARD: dict[str, tuple[type[BaseModel], str]] = {
     "stick": (StickMove, "Move the stick"),
     "give_back": (GiveBack, "Give control back"),
 }
+OVERSEEN: dict[str, tuple[type[BaseModel], str]] = {
+    "atc": (AtcFrame, "What happened at the desk since the last one"),
+}
 """Messages by name: their shape, and what they say."""
+ALL = SENT | HEARD | OVERSEEN
+
+ATC_QUERY = {
+    "type": "object",
+    "properties": {
+        "from": {
+            "type": "integer",
+            "minimum": 0,
+            "description": "Number of the first document that is wanted.",
+        },
+        "answers": {
+            "type": "boolean",
+            "description": "Whether a controller answers from here, who is not only to look on.",
+        },
+    },
+}
 
 router = APIRouter(include_in_schema=False)
 
@@ -83,7 +111,7 @@ async def stream_page(request: Request) -> HTMLResponse:
 def asyncapi_document() -> dict[str, Any]:
     """The sockets in AsyncAPI 3, without the server's address."""
     _, schemas = models_json_schema(
-        [(shape, "validation") for shape, _ in (SENT | HEARD).values()],
+        [(shape, "validation") for shape, _ in ALL.values()],
         ref_template="#/components/schemas/{model}",
         schema_generator=AsyncApiSchema,
     )
@@ -98,28 +126,21 @@ def asyncapi_document() -> dict[str, Any]:
                 "title": "A flight's stream",
                 "description": f"Closed with one of these codes, and a sentence:\n{codes}",
                 "parameters": {"flight_id": {"description": "`id` of `POST /api/v1/flights`."}},
-                "messages": {
-                    name: {"$ref": f"#/components/messages/{name}"} for name in SENT | HEARD
-                },
-                "bindings": {
-                    "ws": {
-                        "method": "GET",
-                        "headers": {
-                            "type": "object",
-                            "properties": {
-                                "Sec-WebSocket-Protocol": {
-                                    "type": "string",
-                                    "enum": [STREAM, PROTOCOL],
-                                }
-                            },
-                        },
-                    }
-                },
-            }
+                "messages": _references(SENT | HEARD),
+                "bindings": {"ws": _binding(STREAM)},
+            },
+            "atc_stream": {
+                "address": "/api/v1/atc/stream",
+                "title": "The controllers' stream",
+                "description": ATC_DESCRIPTION,
+                "messages": _references(OVERSEEN),
+                "bindings": {"ws": {**_binding(ATC_STREAM), "query": ATC_QUERY}},
+            },
         },
         "operations": {
             "watch": _operation("send", LISTEN, SENT),
             "fly": _operation("receive", FLY, HEARD),
+            "oversee": _operation("send", OVERSEE, OVERSEEN, channel="atc_stream"),
         },
         "components": {
             "messages": {
@@ -129,26 +150,38 @@ def asyncapi_document() -> dict[str, Any]:
                     "contentType": "application/json",
                     "payload": {"$ref": f"#/components/schemas/{shape.__name__}"},
                 }
-                for name, (shape, title) in (SENT | HEARD).items()
+                for name, (shape, title) in ALL.items()
             },
             "schemas": schemas["$defs"],
         },
     }
 
 
-def _operation(action: str, summary: str, messages: Iterable[str]) -> dict[str, Any]:
+def _references(messages: Iterable[str]) -> dict[str, Any]:
+    return {name: {"$ref": f"#/components/messages/{name}"} for name in messages}
+
+
+def _binding(protocol: str) -> dict[str, Any]:
+    """How a socket is opened, by one of two sub-protocols."""
+    names = {"Sec-WebSocket-Protocol": {"type": "string", "enum": [protocol, PROTOCOL]}}
+    return {"method": "GET", "headers": {"type": "object", "properties": names}}
+
+
+def _operation(
+    action: str, summary: str, messages: Iterable[str], *, channel: str = "stream"
+) -> dict[str, Any]:
     return {
         "action": action,
         "summary": summary,
-        "channel": {"$ref": "#/channels/stream"},
-        "messages": [{"$ref": f"#/channels/stream/messages/{name}"} for name in messages],
+        "channel": {"$ref": f"#/channels/{channel}"},
+        "messages": [{"$ref": f"#/channels/{channel}/messages/{name}"} for name in messages],
     }
 
 
 def _page(root: str) -> str:
     document = asyncapi_document()
     schemas = document["components"]["schemas"]
-    first = [shape.__name__ for shape, _ in (SENT | HEARD).values()]
+    first = [shape.__name__ for shape, _ in ALL.values()]
     order = [*first, *sorted(name for name in schemas if name not in first)]
     parts = "".join(_section(name, schemas[name]) for name in order)
     codes = "".join(
@@ -162,7 +195,9 @@ def _page(root: str) -> str:
         f'<a href="{root}/asyncapi.json">AsyncAPI</a> · <a href="{root}/docs">REST</a>'
         "<h2><code>/api/v1/flights/{flight_id}/stream</code></h2>"
         f"<p>{LISTEN} A WebSocket that sends {_links(SENT)} and hears {_links(HEARD)}."
-        f"<table><caption>Why it is closed</caption>{codes}</table>{parts}</main>"
+        f"<table><caption>Why it is closed</caption>{codes}</table>"
+        f"<h2><code>/api/v1/atc/stream</code></h2><p>{prose(ATC_DESCRIPTION)}"
+        f"<p>A WebSocket that sends {_links(OVERSEEN)}.{parts}</main>"
     )
 
 

@@ -266,7 +266,8 @@ def _complete(operation: dict[str, Any], method: str, route: Any) -> None:
         replayed = (REPLAYED,) if takes_key and status < "5" else ()
         names = (*_EVERY, *_BY_STATUS.get(status, ()), *replayed)
         answer["headers"] = {**answer.get("headers", {}), **header_references(names)}
-        if (example := _examples().get(operation["operationId"])) and status.startswith("2"):
+        usual = str(route.original_route.status_code or 200)
+        if (example := _examples().get(operation["operationId"])) and status == usual:
             answer["content"][JSON]["example"] = example
 
 

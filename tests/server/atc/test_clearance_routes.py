@@ -252,6 +252,10 @@ def test_what_cannot_be_asked_is_refused(
     assert said in answer.json()["detail"]
 
 
+def test_a_query_of_no_ascii_is_refused_as_any_other(client: TestClient) -> None:
+    is_problem(client.post(f"{CLEARANCES}?%C2%80=1", json=request()), 422, CLEARANCES)
+
+
 def test_a_flight_that_is_proposed_nothing_has_nothing_to_ask_for(client: TestClient) -> None:
     unknown = client.post(CLEARANCES, json={"flight_id": "none"})
     is_problem(unknown, 404, CLEARANCES)

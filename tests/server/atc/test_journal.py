@@ -11,7 +11,7 @@ from typing import Any
 import httpx2 as httpx
 import pytest
 from relguide_server.atc.journal import A_SECOND, Journal, frame, written
-from relguide_server.atc.routes import ATC_STREAM, ONLY_LISTEN
+from relguide_server.atc.routes import ONLY_LISTEN
 from relguide_server.flights.frames import NOT_UNDERSTOOD
 from relguide_server.flights.stream import WRONG_PROTOCOL
 from relguide_server.http.metrics import Metrics
@@ -21,6 +21,7 @@ from websockets.typing import Subprotocol
 
 from relguide.atc.documents import Expired, SkyCard, TrafficSeen
 from relguide.contract.clearance_bodies import AtcFrame
+from relguide.contract.protocol import ATC_STREAM
 from tests.server.atc.asking import CLEARANCES, report, request
 from tests.server.http.test_access import SETTING, TOKENS
 from tests.server.serving import ideal_app, serve
