@@ -188,14 +188,16 @@ def test_a_controller_answers_for_all_flights_and_a_guest_for_its_own() -> None:
         assert may_answer(asks(role, owner), "a") == may
 
 
-def test_a_browser_shows_its_token_once(guarded: TestClient) -> None:
+@pytest.mark.parametrize("page", ["/", "/atc"])
+def test_a_browser_shows_its_token_once(guarded: TestClient, page: str) -> None:
+    guarded.cookies.clear()
     assert guarded.get("/", follow_redirects=False).status_code == 401
     unknown = guarded.get("/api/v1/flights", headers={"Authorization": "Bearer " + 16 * "x"})
     assert unknown.status_code == 401
     assert "not one of the service's" in unknown.json()["detail"]
     assert "needs a token" in guarded.get("/api/v1/flights").json()["detail"]
-    opened = guarded.get(f"/?token={TOKENS['view']}", follow_redirects=False)
-    assert (opened.status_code, opened.headers["location"]) == (303, "/")
+    opened = guarded.get(f"{page}?token={TOKENS['view']}", follow_redirects=False)
+    assert (opened.status_code, opened.headers["location"]) == (303, page)
     assert "HttpOnly; Path=/; SameSite=strict" in opened.headers["set-cookie"]
     assert guarded.get("/api/v1/flights").status_code == 200
     guarded.cookies.clear()

@@ -33,14 +33,14 @@ const PAIRS: readonly Pair[] = [
   },
   {
     called: ["BAW342", "KLM61"],
-    leader: [-72, -28, 60],
+    leader: [-37, -28, 60],
     pursuer: [10, -7, -20],
     spacing: 6,
     level: LEVEL,
   },
   {
     called: ["SWR85", "AUA7"],
-    leader: [2, -56, 330],
+    leader: [2, -38, 330],
     pursuer: [9, 8, 25],
     spacing: 7,
     level: LEVEL,

@@ -74,7 +74,8 @@ export function isTaken(event: KeyboardEvent): boolean {
   if (event.ctrlKey || event.altKey || event.metaKey) return true;
   const { target, key } = event;
   if (!(target instanceof HTMLElement)) return false;
-  if (target.matches("input, select, textarea")) return key !== "Escape";
+  if (target.matches("input[type=range]")) return !/^([a-z]|Escape|\?)$/i.test(key);
+  if (target.matches("select")) return key !== "Escape";
   return target.closest("[role=tablist]") !== null && key.startsWith("Arrow");
 }
 

@@ -19,6 +19,7 @@ export function RequestList({ station }: { station: Station }) {
       list.current?.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
   }, [chosen]);
   const waiting = requests.value.filter(isWaiting).length;
+  const isListed = requests.value.some(({ id }) => id === chosen);
   return (
     <section class="atc-panel atc-requests" aria-labelledby="requests">
       <header>
@@ -42,7 +43,7 @@ export function RequestList({ station }: { station: Station }) {
           ref={list}
           role="listbox"
           aria-label="Requests, the most urgent first"
-          aria-activedescendant={chosen === null ? undefined : `request-${chosen}`}
+          aria-activedescendant={isListed ? `request-${chosen}` : undefined}
           tabIndex={0}
         >
           {requests.value.map((card) => (

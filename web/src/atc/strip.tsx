@@ -7,7 +7,7 @@ import { ANSWERS, answer, hindrance, probe, refusalOf } from "./answering";
 import { choose, type Station } from "./station";
 import { UnableReasons } from "./unable";
 import { timeLeft } from "./urgency";
-import { amountText, behindText, leastText, STATES, timeText, VERDICTS } from "./words";
+import { amountText, behindText, leastText, reasonText, STATES, timeText, VERDICTS } from "./words";
 
 export function Strip({ station }: { station: Station }) {
   const card = station.card.value;
@@ -208,7 +208,8 @@ function History({ card }: { card: ClearanceCard }) {
         {card.history.map((each, k) => (
           <li key={`${each.state} ${k}`}>
             <span class="time">{timeText(card.sky, each.t_s)}</span>{" "}
-            <b>{STATES[each.state].word}</b> <span class="unit">by {each.by}</span> {each.message}
+            <b>{STATES[each.state].word}</b> <span class="unit">by {each.by}</span>{" "}
+            {reasonText(each.reason)} {each.message}
           </li>
         ))}
       </ol>

@@ -63,6 +63,12 @@ export const REASONS: readonly { readonly code: ReasonCode; readonly text: strin
   { code: "controller", text: "Without another reason" },
 ];
 
+/** A reason as it is read; nothing where there is none. */
+export function reasonText(code: string | undefined): string {
+  if (code === undefined || code === "") return "";
+  return `${REASONS.find((each) => each.code === code)?.text ?? code.replaceAll("_", " ")}.`;
+}
+
 /** Behind whom, and how far. */
 export function behindText(card: ClearanceCard): string {
   const spacing =

@@ -188,6 +188,10 @@ describe("a controller with a keyboard", () => {
     });
     await press("ArrowDown", "a");
     expect(text(".refused")).toContain("The page shows the past");
+    // the slider keeps its arrows, and leaves letters to the page
+    place.querySelector<HTMLElement>("input[type=range]")?.focus();
+    await press("ArrowUp");
+    expect(station.selected.value).toBe("1");
     await press("l");
     expect(station.store.instant.value).toBeNull();
     expect(asked).toEqual([]);
