@@ -150,7 +150,7 @@ def test_the_sky_lies_where_it_is_flown_in_and_stays_while_it_is() -> None:
         assert aloft.skies.plane(EARTH) is None
         x, y, _ = aloft.skies.place(10.0, 20.0, "aircraft")
         assert (x, y) == pytest.approx((0.0, 0.0), abs=1e-6)
-        with pytest.raises(ContractError, match="aircraft.lat_deg"):
+        with pytest.raises(ContractError, match=r"aircraft\.lat_deg"):
             aloft.skies.place(50.0, 8.0, "aircraft")
         aloft.skies.look(keep_earth=True)
         assert aloft.skies.plane(EARTH) == LocalPlane(10.0, 20.0)
