@@ -41,7 +41,11 @@ from relguide.flying.plan_documents import (
 )
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.roots import FloatArray
+from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.frames import LocalPlane
+from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
+from relguide.planning.situation import Situation
+from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.planning.wind import Wind, wind_from
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
@@ -291,6 +295,70 @@ def _points(segment: PathSegment) -> list[tuple[float, float, float, float]]:
 
 def _tuple(point: PathPoint) -> tuple[float, float, float, float]:
     return point.t, point.x, point.y, point.heading
+
+
+def situation_of(news: LinkNews, placing: Placing) -> Situation:
+    """A pursuer behind its leader now, in the sky: to plan what else it could fly.
+
+    Args:
+        news: of its link.
+        placing: in the sky.
+
+    Raises:
+        ValueError: if that cannot be planned from, in a sentence.
+    """
+    own, leader, link, assigned = news.pursuer, news.leader, news.link, news.assignment
+    columns = placing.columns(*zip(_pose(own), _pose(leader), strict=True))
+    (own_x, leader_x), (own_y, leader_y), noses = (column.tolist() for column in columns)
+    turned = noses[1] - leader.heading
+    known = news.route is not None and news.route.intent_known
+    segments = news.route.segments if news.route is not None and known else ()
+    card = find_by_ident(news.started.aircraft, link.pursuer)
+    return Situation(
+        pursuer=Pursuer(
+            x=own_x,
+            y=own_y,
+            heading=wrap(noses[0]),
+            tas=own.tas,
+            max_bank=card.max_bank if assigned is None else assigned.max_bank,
+            altitude=own.altitude,
+        ),
+        leader=Leader(
+            x=leader_x,
+            y=leader_y,
+            heading=wrap(noses[1]),
+            tas=leader.tas,
+            intent=_pieces(segments, news.sample.t, turned),
+            altitude=leader.altitude,
+        ),
+        slot_distance=link.slot_distance if assigned is None else assigned.slot_distance,
+        min_separation=link.min_separation if assigned is None else assigned.min_separation,
+        wind=placing.wind(_wind(news)),
+    )
+
+
+def _pose(one: AircraftSample) -> tuple[Metre, Metre, Radian]:
+    return one.x, one.y, one.heading
+
+
+def _pieces(
+    segments: Sequence[PathSegment], now: Second, turned: Radian
+) -> tuple[IntentPiece, ...]:
+    """What is left of a route, without the straight leg at its end."""
+    pieces: list[IntentPiece] = []
+    for segment in segments[:-1]:
+        if segment.end.t <= now:
+            continue
+        match segment:
+            case StraightSegment():
+                pieces.append(FlyStraight(duration=segment.end.t - max(segment.start.t, now)))
+            case TurnSegment(direction=direction, bank=bank):
+                side = RIGHT if direction == "right" else LEFT
+                heading = wrap(segment.end.heading + turned)
+                pieces.append(TurnTo(heading=heading, turn=side, bank=bank))
+            case BoundarySegment():
+                pass  # no leader declares one
+    return tuple(pieces)
 
 
 def _levels(own: AircraftSample, plan: PlanCard | None) -> tuple[Metre, Metre]:

@@ -102,7 +102,9 @@ async def ask_clearance(
     except ContractError as error:
         raise refusal_of(error) from None
     if dry_run:
-        found = await desk.try_out(asked.manoeuvre, asked.sky)
+        found = await desk.try_out(
+            asked.manoeuvre, asked.sky, flight_id=asked.flight_id, pursuer=asked.pursuer
+        )
         plane = desk.skies.plane(asked.sky)
         place = None if plane is None else plane.to_geodetic
         return json_answer(

@@ -19,6 +19,7 @@ from relguide.atc.of_flight import (
     leader_track,
     manoeuvre_of,
     seen_in_flight,
+    situation_of,
 )
 from relguide.atc.picture import Picture, Seen
 from relguide.atc.request import Manoeuvre
@@ -28,6 +29,7 @@ from relguide.contract.refusal import ContractError
 from relguide.flying.aircraft_documents import AircraftSample, LinkCard
 from relguide.flying.documents import AssignmentChanged, ForecastChanged, PlanChanged, PlanProposed
 from relguide.planning.frames import LocalPlane, middle_of
+from relguide.planning.situation import Situation
 from relguide.units import MetrePerSecond, Second
 from relguide_server.atc.reports import Reports
 from relguide_server.flights.live_fleet import LiveFleet
@@ -249,6 +251,17 @@ class Skies:
             return manoeuvre_of(news, self.placing(flight), pursuer, leader)
         except ValueError as error:
             raise Refusal(409, str(error)) from None
+
+    def situation(self, flight_id: str, ident: str) -> Situation | None:
+        """A pursuer behind its leader now, in its sky; `None` if nothing can be planned from it."""
+        flight = self.flight(flight_id)
+        news = None if flight is None else self.news(flight, self.link(flight, ident))
+        if flight is None or news is None:
+            return None
+        try:
+            return situation_of(news, self.placing(flight))
+        except ValueError:
+            return None
 
     def placing(self, flight: LiveFlight) -> Placing:
         """How a flight lies in its sky."""

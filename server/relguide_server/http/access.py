@@ -271,9 +271,10 @@ def _needed(scope: Scope) -> Power:
     if scope["type"] == "websocket" or scope["method"] in SAFE:
         return "read"
     path = path_of(scope)
-    query = parse_qs(scope["query_string"].decode("latin-1"))
-    if path == CLEARANCES and query.get("dry_run") == ["true"]:
-        return "read"  # a trial, of which nothing is kept
+    if path == CLEARANCES:
+        query = parse_qs(scope["query_string"].decode("latin-1"))
+        if query.get("dry_run") == ["true"]:
+            return "read"  # a trial, of which nothing is kept
     asked = f"{scope['method']} {path}"
     return next(power for asking, power in _NEEDED if asking.fullmatch(asked))
 
