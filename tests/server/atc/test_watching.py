@@ -130,6 +130,18 @@ def test_who_flies_no_more_is_cleared_no_more(
     assert (case.state, case.clearance.history[-1].message) == ("cancelled", said)
 
 
+def test_what_is_not_acceptable_comes_with_what_would_be(client: TestClient) -> None:
+    flight = start(client, scenario="crossing_stream", engagement="engaged")
+    tried = client.post(f"{CLEARANCES}?dry_run=true", json={"flight_id": flight}).json()
+    found = tried["validation"]
+    assert found["verdict"] == "unable"
+    assert found["alternatives"]
+    for offered in found["alternatives"]:
+        assert offered["least_m"] >= 5 * 1852.0
+        assert len(offered["route"]["t_s"]) > 2
+    client.delete(f"{FLIGHTS}/{flight}")
+
+
 PLACED = {
     "pursuer": {
         "lat_deg": 50.3, "lon_deg": 7.6, "heading_deg": 90, "tas_mps": 235, "max_bank_deg": 25,
