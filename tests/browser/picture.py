@@ -1,6 +1,7 @@
-"""Take the pictures of the cockpit: `python -m tests.browser.picture STILL.png MOVING.webp`.
+"""Take the pictures of both pages: `python -m tests.browser.picture STILL.png MOVING.webp ATC.png`.
 
-The moving one is the README's: the paper's Fig. 6b from engagement until it is joined.
+The moving one is the README's: the paper's Fig. 6b from engagement until it is joined. The last is
+the controller's page with its demonstration.
 """
 
 import io
@@ -31,7 +32,7 @@ QUALITY = 45
 """Of its compression: numbers can still be read."""
 
 
-def main(still: Path, moving: Path) -> None:
+def main(still: Path, moving: Path, controller: Path) -> None:
     with TemporaryDirectory() as folder, running_service(Path(folder)) as service:
         with running_chromium() as browser:
             page = browser.new_page(viewport={"width": 1440, "height": 900})
@@ -43,6 +44,23 @@ def main(still: Path, moving: Path) -> None:
             page.wait_for_timeout(SCENE_DRAWN)
             take_picture(page, still)
             take_film(page, service.url, moving)
+            take_controller(page, service.url, controller)
+
+
+def take_controller(page: Page, url: str, file: Path) -> None:
+    """Five requests: one accepted, one chosen that comes too near to another."""
+    page.goto(f"{url}/atc")
+    page.get_by_role("button", name="Demo").click()
+    requests = page.get_by_role("option")
+    expect(requests).to_have_count(5, timeout=60_000)
+    expect(requests.filter(has_text="UNABLE")).to_have_count(1)
+    page.keyboard.press("n")
+    page.keyboard.press("a")
+    expect(requests.filter(has_text="ACCEPTED")).to_have_count(1)
+    requests.filter(has_text="UNABLE").click()
+    page.locator(".atc-clock").click()
+    page.wait_for_timeout(12_000)  # dots behind all aircraft
+    take_picture(page, file)
 
 
 def take_film(page: Page, url: str, file: Path) -> None:
@@ -104,4 +122,4 @@ def hide_toasts(page: Page) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]))
+    main(*map(Path, sys.argv[1:4]))

@@ -15,6 +15,9 @@ import { glassOf, toPoint, typeOf } from "./view";
 /** Half of an aircraft's symbol [px]: no text over it. */
 const SYMBOL = 9;
 
+/** The buttons in the upper right corner of the map [px]. */
+const BUTTONS = { width: 112, height: 44 } as const;
+
 export function Labels({ station }: { station: Station }) {
   const before = useRef<ReadonlyMap<string, Placement>>(new Map());
   const { view, store } = station;
@@ -34,7 +37,7 @@ export function Labels({ station }: { station: Station }) {
     labels,
     {
       isSeen: (point) => within(glass, point),
-      boxes,
+      boxes: [...boxes, { x: glass.width - BUTTONS.width, y: 0, ...BUTTONS }],
       points: [...vectors, ...routePoints(station)],
     },
     before.current,

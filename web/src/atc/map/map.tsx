@@ -10,7 +10,7 @@ import { Labels } from "./labels";
 import { Measure } from "./measure";
 import { PairGeometry } from "./pair";
 import { Routes } from "./routes";
-import { showAll, zoom } from "./view";
+import { keepInSight, showAll, zoom } from "./view";
 
 export function SkyMap({ station }: { station: Station }) {
   const place = useRef<HTMLDivElement>(null);
@@ -21,7 +21,9 @@ export function SkyMap({ station }: { station: Station }) {
     if (glass === null || drawing === null || drawing === undefined) return;
     const measure = () => {
       const { clientWidth: width, clientHeight: height } = glass;
-      if (width > 0 && height > 0) view.size.value = { width, height };
+      if (width === 0 || height === 0) return;
+      view.size.value = { width, height };
+      keepInSight(view, station.store.sky.value.aircraft);
     };
     measure();
     const watcher = new ResizeObserver(measure);

@@ -52,6 +52,9 @@ export function PairGeometry({ station }: { station: Station }) {
   );
 }
 
+/** Its label stands outside the circle of the minimum, but no further away than this [px]. */
+const FAR = 60;
+
 /** How close they come, when, and what is to be kept. */
 export function pairLabel(station: Station): Label | null {
   const { view, store } = station;
@@ -69,7 +72,7 @@ export function pairLabel(station: Station): Label | null {
     at: toPoint(view, pair.own),
     lines: lines.map((text) => ({ text, colour: "label" })),
     side: 60,
-    gap: 18,
+    gap: Math.min(FAR, pair.minimum_m * view.scale.value + 6),
     size: typeOf(view),
     optional: false,
   };
