@@ -142,7 +142,7 @@ def test_a_frame_is_of_the_contract() -> None:
 
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
-    with serve(ideal_app(atc_auto_answer="auto")) as address:
+    with serve(ideal_app(proxies="")) as address:
         yield address
 
 
