@@ -77,6 +77,7 @@ def ask(client: TestClient) -> dict[str, Any]:
     clearance = f"/api/v1/clearances/{asked['id']}"
     found |= {
         "ask_clearance": asked,
+        "show_sky": client.get("/api/v1/atc/traffic", params={"sky": started["id"]}).json(),
         "show_clearance": _wait_for(client, clearance, lambda got: got["state"] == "accepted"),
         "list_clearances": client.get("/api/v1/clearances").json(),
         "reply_clearance": client.post(f"{clearance}/replies", json={"reply": "WILCO"}).json(),

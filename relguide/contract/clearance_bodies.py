@@ -13,7 +13,7 @@ from relguide.atc.documents import ClearanceCard, ReasonCode, TrackCard, Validat
 from relguide.contract.bodies import WindBody
 from relguide.contract.intent_bodies import Bank, Piece
 from relguide.contract.messages import AtcDocumentModel, SpacingTime, model_of
-from relguide.contract.other_bodies import Distance, Ident, Tas
+from relguide.contract.other_bodies import AnyTraffic, Distance, Ident, Tas
 from relguide.contract.places import (
     Altitude,
     Latitude,
@@ -190,6 +190,17 @@ class ClearanceList(Strict):
 
     clearances: list[ClearanceModel]
     """Those that live first, then those that are over; the newest first."""
+
+
+class SkyTraffic(Strict):
+    """A sky as traffic that a plan keeps clear of."""
+
+    sky: str
+    """Empty: the one on the earth; else the flight whose sky it is."""
+    t_s: float
+    """The time of the sky that this holds for."""
+    traffic: list[AnyTraffic]
+    """As `POST /plans` takes it, in still air: where each is now, and what it intends."""
 
 
 class AtcFrame(Strict):

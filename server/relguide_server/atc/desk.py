@@ -389,6 +389,7 @@ class Desk:
         return await asyncio.get_running_loop().run_in_executor(self._suggesting, work)
 
     async def _find(self, manoeuvre: Manoeuvre, sky: str) -> ValidationCard:
+        await self.skies.prepare(sky)
         picture = self.skies.picture(sky, self.cases.cleared(sky))
         now, loop = self.skies.now(sky), asyncio.get_running_loop()
         return await loop.run_in_executor(self._pool, validate, manoeuvre, picture, now, self.rules)

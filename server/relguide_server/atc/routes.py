@@ -1,5 +1,6 @@
 """Routes of clearances: ask, try, answer, reply, read; and the controllers' stream."""
 
+import asyncio
 from typing import Annotated
 
 import orjson
@@ -16,6 +17,7 @@ from relguide.contract.clearance_bodies import (
     ClearanceModel,
     ClearanceReply,
     ClearanceTrial,
+    SkyTraffic,
 )
 from relguide.contract.protocol import ATC_STREAM, PROTOCOL
 from relguide.contract.refusal import ContractError, parse
@@ -23,7 +25,9 @@ from relguide.contract.upstream import Upstream
 from relguide.contract.wire import placed_to_wire
 from relguide_server.atc.cases import Case
 from relguide_server.atc.desk import DeskOf
+from relguide_server.atc.intents import traffic_body
 from relguide_server.atc.requests import NewClearance, asked_for
+from relguide_server.atc.skies import EARTH
 from relguide_server.flights.frames import NOT_UNDERSTOOD, UnwelcomeFrame
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.stream import TOO_MANY, WRONG_PROTOCOL
@@ -226,6 +230,38 @@ async def reply_clearance(
         raise refusal_of(error) from None
     await desk.reply(case, said)
     return await _answer(case, records)
+
+
+@router.get(
+    "/atc/traffic",
+    summary="A sky as traffic to keep clear of",
+    responses={
+        **response(200, "Who flies, and what each intends.", schema_of(SkyTraffic)),
+        **problem_responses("invalid", "not-found"),
+    },
+)
+async def show_sky(
+    desk: DeskOf,
+    sky: Annotated[
+        str, Query(max_length=100, description="Empty: that on the earth; else a flight's.")
+    ] = EARTH,
+) -> Response:
+    """What is cleared, filed or declared is intended; `traffic` is as `POST /plans` takes it.
+
+    All keep the controller's minimum. A plan takes a hundred at most: choose those that matter.
+    """
+    if sky != EARTH and desk.skies.flight(sky) is None:
+        raise Refusal(404, f"There is no sky {sky!r}: it is a flight's, or empty.")
+    await desk.skies.prepare(sky)
+    now, plane = desk.skies.now(sky), desk.skies.plane(sky)
+    seen = desk.skies.picture(sky, desk.cases.cleared(sky)).aircraft
+    minimum = desk.rules.minimum
+
+    def gather() -> list[dict[str, object]]:
+        bodies = (traffic_body(one, now, plane, minimum) for one in seen)
+        return [body for body in bodies if body is not None]
+
+    return json_answer({"sky": sky, "t_s": now, "traffic": await asyncio.to_thread(gather)})
 
 
 @router.websocket("/atc/stream")

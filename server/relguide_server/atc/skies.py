@@ -5,6 +5,7 @@ the earth and are flown at rate 1, and all that is reported. Each other flight h
 called as the flight is, with its flight time.
 """
 
+import asyncio
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -174,6 +175,12 @@ class Skies:
     def forget_pictures(self) -> None:
         """Something of a clearance is new: pictures made before do not hold."""
         self._pictures.clear()
+
+    async def prepare(self, sky: str) -> None:
+        """Place what is reported, on a thread: thousands take a tenth of a second."""
+        plane = self._plane if sky == EARTH else None
+        if plane is not None:
+            await asyncio.to_thread(self._reports.aircraft, plane, self.now(sky))
 
     def picture(self, sky: str, cleared: Mapping[str, Track]) -> Picture:
         """All that fly in a sky now, and what is closed.

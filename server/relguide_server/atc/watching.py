@@ -1,13 +1,16 @@
 """What time and flights do to clearances, once a second: due ones end, begun ones are watched."""
 
 import asyncio
+from collections.abc import Callable, Mapping
 from contextlib import suppress
+from functools import partial
 
 from relguide.atc import life
 from relguide.atc.conformance import shown, still_covers, watch
-from relguide.atc.documents import ConformanceChanged, Deviation, Expired
+from relguide.atc.documents import ConformanceChanged, Deviation, Expired, TrafficSeen
 from relguide.atc.picture import Picture
 from relguide.flying.documents import ForecastChanged
+from relguide.planning.frames import LocalPlane
 from relguide.units import Second
 from relguide_server.atc.cases import Case
 from relguide_server.atc.desk import Desk
@@ -52,6 +55,7 @@ class Watching:
         loop = asyncio.get_running_loop()
         due = loop.time()
         while True:
+            await self._desk.skies.prepare(EARTH)
             run_logged("A second of the desk", self.pass_second)
             due = max(due + PERIOD, loop.time())
             await asyncio.sleep(due - loop.time())
@@ -62,13 +66,12 @@ class Watching:
         desk.skies.look(keep_earth=bool(desk.cases.living(EARTH)))
         for case in desk.cases.living():
             self._pass(case)
-        skies = list(desk.skies.each())
+        skies = list(desk.skies.each()) if desk.journal.clients else []
         for gone in set(desk.traffic) - set(skies):
             del desk.traffic[gone]
             self._shown.pop(gone, None)
-        if desk.journal.clients:
-            for sky in skies:
-                self._show(sky)
+        for sky in skies:
+            self._show(sky)
 
     # -- clearances -------------------------------------------------------------------------------
 
@@ -193,9 +196,29 @@ class Watching:
         if sky == EARTH:
             heard = self._reports.heard(now)
             sources = {ident: (one.source.name, "") for ident, one in heard.items()} | sources
-        seen = traffic_seen(sky, desk.skies.title(sky), self._picture(sky), sources)
-        plane = desk.skies.plane(sky)
-        desk.show(sky, seen, written(seen, None if plane is None else places_of(seen, plane)))
+        make = partial(
+            _written, sky, desk.skies.title(sky), self._picture(sky), sources, desk.skies.plane(sky)
+        )
+        if sky == EARTH:
+            desk.spawn(self._show_later(make))
+        else:
+            desk.show(sky, *make())
+
+    async def _show_later(self, make: Callable[[], tuple[TrafficSeen, bytes]]) -> None:
+        """Send what a thread writes: thousands of aircraft take a while."""
+        self._desk.show(EARTH, *await asyncio.to_thread(make))
+
+
+def _written(
+    sky: str,
+    title: str,
+    picture: Picture,
+    sources: Mapping[str, tuple[str, str]],
+    plane: LocalPlane | None,
+) -> tuple[TrafficSeen, bytes]:
+    """A sky as it is seen now, and the same as it is sent."""
+    seen = traffic_seen(sky, title, picture, sources)
+    return seen, written(seen, None if plane is None else places_of(seen, plane))
 
 
 def _levels(deviations: tuple[Deviation, ...]) -> set[tuple[str, str]]:

@@ -82,6 +82,7 @@ TABLE = {
     ("GET", "/api/v1/clearances/{clearance_id}/export"): "view",
     ("POST", "/api/v1/clearances/{clearance_id}/answers"): "answer",
     ("POST", "/api/v1/clearances/{clearance_id}/replies"): "fly",
+    ("GET", "/api/v1/atc/traffic"): "view",
     ("GET", "/api/v1/traffic"): "view",
     ("PUT", "/api/v1/traffic"): "answer",
     ("DELETE", "/api/v1/traffic"): "answer",
