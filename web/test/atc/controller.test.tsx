@@ -169,6 +169,11 @@ describe("a controller with a keyboard", () => {
     const accept = [...place.querySelectorAll("button")].find((b) => b.textContent === "AAccept");
     expect(accept?.disabled).toBe(true);
     expect(text(".atc-strip .hint")).toBe(detail);
+    expect(text(".refused")).toBe("");
+    // another clearance may be one's own
+    tell([changed(clearance("2"))]);
+    await press("ArrowDown", "a");
+    expect(asked).toHaveLength(2);
   });
 
   it("tries a flight's clearance again, and nothing is kept", async () => {
