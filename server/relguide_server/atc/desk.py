@@ -41,6 +41,7 @@ from relguide_server.atc.crew_news import crew_news, is_news
 from relguide_server.atc.journal import Journal, written
 from relguide_server.atc.skies import Skies
 from relguide_server.atc.slots import with_its_place
+from relguide_server.flights.watchers import Watchers
 from relguide_server.http.errors import Refusal
 from relguide_server.http.metrics import Metrics
 from relguide_server.records.clock import date
@@ -84,6 +85,7 @@ class Desk:
         self.journal = Journal(self._snapshot, metrics, clock)
         self.traffic: dict[str, bytes] = {}
         """The newest of each sky, as it was written."""
+        self.listeners = Watchers("", "the controllers' stream")
         self.answering = 0
         """Streams that are open of those who may answer."""
         self._settings, self._records, self._clock = settings, records, clock

@@ -24,13 +24,14 @@ from relguide.contract.refusal import ContractError, parse
 from relguide.contract.upstream import Upstream
 from relguide.contract.wire import placed_to_wire
 from relguide_server.atc.cases import Case
-from relguide_server.atc.desk import DeskOf
+from relguide_server.atc.desk import Desk, DeskOf
 from relguide_server.atc.intents import traffic_body
 from relguide_server.atc.requests import NewClearance, asked_for
 from relguide_server.atc.skies import EARTH
 from relguide_server.flights.frames import NOT_UNDERSTOOD, UnwelcomeFrame
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.stream import TOO_MANY, WRONG_PROTOCOL
+from relguide_server.flights.watchers import TooManyWatch
 from relguide_server.http.access import expect_owner, may_answer, owner_of
 from relguide_server.http.bodies import address_of, json_answer, read_object
 from relguide_server.http.errors import Refusal, refusal_of
@@ -284,10 +285,15 @@ async def atc_stream(
         await websocket.close(WRONG_PROTOCOL, f"This server speaks {ATC_STREAM}, and {page}")
         return
     await websocket.accept(spoken[0])
-    if len(desk.journal.clients) >= websocket.app.state.settings.max_watchers:
-        await websocket.close(TOO_MANY, "As many listen to this stream as may: try again later.")
-        return
-    answers = answers and may_answer(websocket, "")
+    try:
+        with desk.listeners.joined_by(websocket):
+            await _oversee(desk, websocket, first, answers=answers and may_answer(websocket, ""))
+    except TooManyWatch as refused:
+        await websocket.close(TOO_MANY, str(refused))
+
+
+async def _oversee(desk: Desk, websocket: WebSocket, first: int | None, *, answers: bool) -> None:
+    """Send what happens until either side ends it."""
     client = desk.journal.join(first)
     desk.answering += answers
     try:

@@ -10,8 +10,8 @@ from relguide_server.doors.sockets import KEEP
 from relguide_server.http.proxy import believed
 from relguide_server.shares.clients import client_of
 
-FULL = "As many watch this flight as may: try again later."
-YOURS = "You watch this flight {share} times, the most of one client: close one of them."
+FULL = "As many watch {what} as may: try again later."
+YOURS = "You watch {what} {share} times, the most of one client: close one of them."
 
 
 class TooManyWatch(Exception):
@@ -21,13 +21,14 @@ class TooManyWatch(Exception):
 class Watchers:
     """Those of one flight's stream, or of its scene. Lives on the event loop."""
 
-    def __init__(self, owner: str) -> None:
+    def __init__(self, owner: str, what: str = "this flight") -> None:
         """None yet.
 
         Args:
             owner: the client that started the flight, whose streams are always let in.
+            what: they watch.
         """
-        self._owner = owner
+        self._owner, self._what = owner, what
         self._counts: Counter[str] = Counter()
 
     @contextmanager
@@ -61,6 +62,6 @@ class Watchers:
         if self._counts[client] < share and client == self._owner:
             return
         if self._counts[client] >= share and not many:
-            raise TooManyWatch(YOURS.format(share=share))
+            raise TooManyWatch(YOURS.format(what=self._what, share=share))
         if self._counts.total() >= most:
-            raise TooManyWatch(FULL)
+            raise TooManyWatch(FULL.format(what=self._what))

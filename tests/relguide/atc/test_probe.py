@@ -1,6 +1,6 @@
 """Closest approaches in closed form, against dense sampling of the true arcs."""
 
-from math import pi
+from math import nan, pi
 
 import numpy as np
 import pytest
@@ -26,12 +26,12 @@ def apart(own: Trajectory, other: Traffic) -> np.ndarray:
     return np.hypot(ours.x - theirs.x, ours.y - theirs.y)
 
 
-def probed(own, others, *, growth=0.0, first=0.0, wind=CALM):
+def probed(own, others, *, growth=0.0, first=0.0, wind=CALM, fan=nan):
     stray = Stray(first, growth, NOW)
     tracks = [intent_track(one, start=NOW, until=NOW + UNTIL, wind=wind) for one in others]
     return probe(
         path_track(own, start=NOW, until=NOW + UNTIL, wind=wind),
-        [Other(track=track, minimum=5.0 * NM, stray=stray) for track in tracks],
+        [Other(track=track, minimum=5.0 * NM, stray=stray, fan=fan) for track in tracks],
         begin=NOW,
         end=NOW + UNTIL,
         vertical=VERTICAL,
@@ -70,6 +70,16 @@ def test_margin_is_that_of_dense_sampling_with_a_bound_that_grows(seed):
             assert approach.margin < 0.0
             assert approach.since - NOW <= lost[0]
             assert approach.until - NOW >= lost[-1]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_all_that_is_said_of_others_that_may_turn_is_finite(seed):
+    rng = np.random.default_rng(seed)
+    own = drawn_path(rng)
+    others = [drawn_traffic(rng, f"T{i}", span=80_000.0) for i in range(60)]
+    found = probed(own, others, fan=pi / 6.0)
+    assert any(approach.margin > 0.0 for approach in found)
+    assert np.isfinite(np.array(found)).all()
 
 
 def test_two_that_turn_are_found_where_samples_five_seconds_apart_miss_them():

@@ -48,4 +48,5 @@ def test_a_request_in_place_of_another_is_all_that_a_crew_hears_of(client: TestC
     flight = start(client)
     first, second = cleared(client, flight), cleared(client, flight)
     assert first.state == "superseded"
-    assert [one.clearance_id for one in told(client, flight)] == [second.clearance.id]
+    new = [second.clearance.id]
+    wait_for(lambda: [one.clearance_id for one in told(client, flight)] == new)

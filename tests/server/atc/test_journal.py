@@ -4,7 +4,7 @@ import asyncio
 import json
 from collections import deque
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from typing import Any
 
@@ -13,7 +13,7 @@ import pytest
 from relguide_server.atc.journal import A_SECOND, Journal, frame, written
 from relguide_server.atc.routes import ONLY_LISTEN
 from relguide_server.flights.frames import NOT_UNDERSTOOD
-from relguide_server.flights.stream import WRONG_PROTOCOL
+from relguide_server.flights.stream import TOO_MANY, WRONG_PROTOCOL
 from relguide_server.http.metrics import Metrics
 from websockets.exceptions import ConnectionClosedError, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
@@ -142,7 +142,7 @@ def test_a_frame_is_of_the_contract() -> None:
 
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
-    with serve(ideal_app(atc_auto_answer="auto")) as address:
+    with serve(ideal_app(proxies="")) as address:
         yield address
 
 
@@ -234,6 +234,18 @@ def test_clients_only_listen(address: str) -> None:
             deque(iter(partial(socket.recv, 5.0), None))
     assert closed.value.rcvd is not None
     assert (closed.value.rcvd.code, closed.value.rcvd.reason) == (NOT_UNDERSTOOD, ONLY_LISTEN)
+
+
+def test_one_client_has_a_share_of_the_stream(address: str) -> None:
+    with ExitStack() as stack:
+        sockets = [stack.enter_context(listening(address, "?answers=false")) for _ in range(16)]
+        assert all(read(socket).snapshot for socket in sockets)
+        one_more = stack.enter_context(listening(address, "?answers=false"))
+        with pytest.raises(ConnectionClosedError) as closed:
+            one_more.recv(5.0)
+    assert closed.value.rcvd is not None
+    assert closed.value.rcvd.code == TOO_MANY
+    assert "the controllers' stream 16 times" in closed.value.rcvd.reason
 
 
 def test_another_protocol_is_told_what_is_spoken(address: str) -> None:

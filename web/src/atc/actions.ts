@@ -43,8 +43,8 @@ export function createActions(station: Station, address: string, protocol: strin
       },
       received: ({ snapshot, documents }) => {
         batch(() => {
-          if (snapshot) store.clear();
-          store.receive(documents);
+          if (snapshot) store.renew(documents);
+          else store.receive(documents);
           confirm(station);
         });
         keepInSight(view, store.sky.value.aircraft);

@@ -31,18 +31,22 @@ export const ANSWERS: Record<ClearanceState, readonly Said[]> = {
   terminated: [],
 };
 
-/** Why nothing can be answered; empty where it can. */
-export function hindrance(station: Station): string {
-  const { file, store, link, forbidden } = station;
+/** Why nothing can be answered to a clearance; empty where it can. */
+export function hindrance(station: Station, id: string): string {
+  return absence(station) || (station.forbidden.value.get(id) ?? "");
+}
+
+/** Why the page is not at the desk now; empty where it is. */
+function absence({ file, store, link }: Station): string {
   if (file.value !== "") return "This is a recording: nothing can be answered.";
   if (store.instant.value !== null) return "The page shows the past: Live (L) leads back.";
   if (link.value !== "open") return "The stream is not connected: wait for it.";
-  return forbidden.value;
+  return "";
 }
 
 /** Why this cannot be said to a clearance now; empty where it can. */
 export function refusalOf(station: Station, card: ClearanceCard, said: Said): string {
-  const why = hindrance(station);
+  const why = hindrance(station, card.id);
   if (why !== "") return why;
   const { sent } = station;
   if (sent.value?.id === card.id && sent.value.refusal === "")
@@ -83,8 +87,9 @@ export async function answer(
   };
   const answered = await answerClearance(id, body);
   if (answered.kind === "done") return;
-  if (answered.status === 403) station.forbidden.value = answered.sentence;
-  station.sent.value = { id, answer: said, before, refusal: answered.sentence };
+  const { status, sentence } = answered;
+  if (status === 403) station.forbidden.value = new Map(station.forbidden.value).set(id, sentence);
+  station.sent.value = status === 403 ? null : { id, answer: said, before, refusal: sentence };
 }
 
 /** Lets go of an answer that the stream has confirmed. */
@@ -105,8 +110,8 @@ export async function probe(station: Station): Promise<void> {
   const say = (sentence: string) => {
     station.tried.value = { id, trial: null, sentence };
   };
-  const why = hindrance(station);
-  if (why !== "" && why !== station.forbidden.value) say(why);
+  const why = absence(station);
+  if (why !== "") say(why);
   else if (flight === undefined)
     say("Only what a flight of this service asks for can be tried: its plan is known here.");
   else {

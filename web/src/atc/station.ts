@@ -40,8 +40,8 @@ export interface Station {
   readonly notice: Signal<string>;
   /** The file that is shown in place of the stream; empty: the stream. */
   readonly file: Signal<string>;
-  /** Why this page may not answer; empty as long as nothing says so. */
-  readonly forbidden: Signal<string>;
+  /** Why this page may not answer a clearance, by its id, once the service has said so. */
+  readonly forbidden: Signal<ReadonlyMap<string, string>>;
   readonly selected: Signal<string | null>;
   /** The other aircraft of the pair that is looked at; null: that with the least margin. */
   readonly pair: Signal<string | null>;
@@ -83,7 +83,7 @@ export function createStation(): Station {
     link: signal<Link>("connecting"),
     notice: signal(""),
     file: signal(""),
-    forbidden: signal(""),
+    forbidden: signal<ReadonlyMap<string, string>>(new Map()),
     selected,
     pair: signal<string | null>(null),
     alternative: signal<AlternativeManoeuvre | null>(null),

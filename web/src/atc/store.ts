@@ -14,6 +14,7 @@ import {
   spanOf,
 } from "./history";
 import { emptySky, type Sky } from "./sky";
+import { isOver } from "./urgency";
 
 /** The dots behind an aircraft: one in so long [s], so many. */
 const DOT_EVERY = 10;
@@ -33,15 +34,25 @@ export interface AtcStore {
   /** From when until when it can be shown [s]. */
   readonly span: ReadonlySignal<readonly [number, number]>;
   readonly marks: ReadonlySignal<readonly Mark[]>;
-  receive(documents: readonly AtcDocument[]): void;
+  /** Takes documents in, heard at a time of the wall clock [ms]. */
+  receive(documents: readonly AtcDocument[], heard?: number): void;
+  /** Takes in all that stands now: what else was known to live is over. The past is kept. */
+  renew(documents: readonly AtcDocument[]): void;
   /** Forgets all that was received. */
   clear(): void;
   /** What tells of all skies all that is kept. */
   documents(): AtcDocument[];
 }
 
+const UNKNOWN = "The service does not know this clearance any more.";
+/** A sky that was not heard of for so long, while others were, is gone [ms]. */
+const GONE = 60_000;
+
 export function createAtcStore(): AtcStore {
   const histories: Histories = new Map();
+  /** When each sky was heard of last, and when any was. */
+  const heardOf = new Map<string, number>();
+  let last = 0;
   const revision = signal(0);
   const tab = signal("");
   const instant = signal<number | null>(null);
@@ -52,7 +63,8 @@ export function createAtcStore(): AtcStore {
   });
   const skies = computed(() => {
     revision.value;
-    const all = [...histories.values()].map(newest);
+    const isThere = ({ id }: Sky) => id === tab.value || last - (heardOf.get(id) ?? last) < GONE;
+    const all = [...histories.values()].map(newest).filter(isThere);
     return [...all.filter(({ id }) => id === ""), ...all.filter(({ id }) => id !== "")];
   });
   const sky = computed(() => {
@@ -61,6 +73,18 @@ export function createAtcStore(): AtcStore {
     if (shown === null) return emptySky(tab.value);
     return instant.value === null ? newest(shown) : skyAt(shown, instant.value);
   });
+
+  const receive = (documents: readonly AtcDocument[], heard = Date.now()) =>
+    batch(() => {
+      last = heard;
+      for (const document of documents) {
+        const history = append(histories, document);
+        if (history !== null) heardOf.set(history.id, heard);
+      }
+      revision.value += 1;
+      const [first] = histories.keys();
+      if (!histories.has(tab.value) && first !== undefined) tab.value = first;
+    });
 
   return {
     skies,
@@ -80,17 +104,24 @@ export function createAtcStore(): AtcStore {
       revision.value;
       return history.value === null ? [] : marksOf(history.value);
     }),
-    receive(documents) {
-      batch(() => {
-        for (const document of documents) append(histories, document);
-        revision.value += 1;
-        const [first] = histories.keys();
-        if (!histories.has(tab.value) && first !== undefined) tab.value = first;
-      });
+    receive,
+    renew(documents) {
+      const living = new Set(
+        documents.map((each) => each.kind === "clearance_changed" && each.clearance.id),
+      );
+      const over = [...histories.values()]
+        .map(newest)
+        .flatMap(({ t, clearances }) =>
+          [...clearances.values()]
+            .filter((card) => !isOver(card) && !living.has(card.id))
+            .map(({ id }): AtcDocument => ({ kind: "expired", t_s: t, id, message: UNKNOWN })),
+        );
+      receive([...over, ...documents]);
     },
     clear() {
       batch(() => {
         histories.clear();
+        heardOf.clear();
         instant.value = null;
         revision.value += 1;
       });

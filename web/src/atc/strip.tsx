@@ -57,7 +57,7 @@ function Content({ station, card }: { station: Station; card: ClearanceCard }) {
 }
 
 function Buttons({ station, card }: { station: Station; card: ClearanceCard }) {
-  const why = hindrance(station);
+  const why = hindrance(station, card.id);
   const { sent, unableOpen } = station;
   const own = sent.value?.id === card.id ? sent.value : null;
   const isRefused = (said: (typeof ANSWERS)[ClearanceCard["state"]][number]) =>

@@ -169,6 +169,11 @@ describe("a controller with a keyboard", () => {
     const accept = [...place.querySelectorAll("button")].find((b) => b.textContent === "AAccept");
     expect(accept?.disabled).toBe(true);
     expect(text(".atc-strip .hint")).toBe(detail);
+    expect(text(".refused")).toBe("");
+    // another clearance may be one's own
+    tell([changed(clearance("2"))]);
+    await press("ArrowDown", "a");
+    expect(asked).toHaveLength(2);
   });
 
   it("tries a flight's clearance again, and nothing is kept", async () => {
@@ -236,11 +241,13 @@ describe("the stream", () => {
     expect(socket().url).toBe(`ws://here/api/v1/atc/stream?from=${last + 1}`);
   });
 
-  it("begins anew with a snapshot", () => {
-    tell([changed(clearance("1"))]);
-    tell([changed(clearance("2"))], true);
-    expect(rows()).toHaveLength(1);
+  it("takes a snapshot for all that stands, and keeps the past", () => {
+    tell([seen([]), changed(clearance("1"))]);
+    tell([seen([], NOW + 5), changed(clearance("2"), NOW + 5)], true);
+    expect(rows()).toHaveLength(2);
     expect(rows()[0]).toContain("DLH2");
+    expect(rows()[1]).toContain("EXPIRED");
+    expect(station.store.span.value).toEqual([NOW, NOW + 5]);
   });
 
   it("says why it was closed for good", () => {

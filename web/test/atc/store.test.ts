@@ -133,6 +133,15 @@ describe("the store", () => {
     expect(places).toEqual([189, 179, 169, 159, 149, 139, 129, 119, 109, 99, 89, 79]);
   });
 
+  it("lets go of a sky that is not heard of while others are", () => {
+    const store = createAtcStore();
+    store.receive([seen([]), seen([], 5, "abc")], 0);
+    store.receive([seen([], NOW + 59)], 59_000);
+    expect(store.skies.value.map(({ id }) => id)).toEqual(["", "abc"]);
+    store.receive([seen([], NOW + 60)], 60_000);
+    expect(store.skies.value.map(({ id }) => id)).toEqual([""]);
+  });
+
   it("opens the tab of the first sky that it hears of", () => {
     const store = createAtcStore();
     store.receive([seen([traffic("A")], 5, "abc")]);

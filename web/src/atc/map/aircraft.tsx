@@ -17,21 +17,23 @@ import { glassOf, lineOf, type MapView, toPoint, typeOf } from "./view";
 export const VECTOR = 60;
 /** What was seen longer ago is marked as old [s]. */
 const OLD = 10;
+/** Dots of this age would not be seen. */
+const FADED = 14;
 const CHEVRON = "M0 -9L7 8L0 4L-7 8Z";
 /** With more aircraft than this, those that no clearance is about may lose their label. */
 const MANY = 40;
 
+/** Where all were, fading: one path for each age, its dots as round ends of lines without length. */
 export function Dots({ station: { view, store } }: { station: Station }) {
   return (
     <g class="atc-dots">
-      {store.trail.value.map(({ aircraft }, age) =>
-        aircraft.map((each) => {
-          const { x, y } = toPoint(view, each);
-          return (
-            <circle key={`${each.ident} ${age}`} cx={x} cy={y} r={1.6} opacity={1 - age / 14} />
-          );
-        }),
-      )}
+      {store.trail.value.map(({ aircraft, t }, age) => (
+        <path
+          key={t}
+          opacity={1 - age / FADED}
+          d={aircraft.map((each) => `${lineOf(view, [each])}h0`).join("")}
+        />
+      ))}
     </g>
   );
 }

@@ -3,7 +3,7 @@
 import { useRef } from "preact/hooks";
 import { type Label, LINE_HEIGHT, type Placement, placeLabels } from "../../nd/labels";
 import { ink } from "../../nd/style";
-import { within } from "../../nd/view";
+import { type Point, within } from "../../nd/view";
 import { straightOn } from "../closest";
 import type { Station } from "../station";
 import { aircraftLabels, VECTOR } from "./aircraft";
@@ -19,30 +19,18 @@ const SYMBOL = 9;
 const BUTTONS = { width: 112, height: 44 } as const;
 
 export function Labels({ station }: { station: Station }) {
-  const before = useRef<ReadonlyMap<string, Placement>>(new Map());
+  const before = useRef<Placed>({ key: "", places: new Map() });
   const { view, store } = station;
-  const glass = glassOf(view);
   const [chosen, ...others] = aircraftLabels(station);
   const labels = [chosen, pairLabel(station), joinLabel(station), ...others]
     .concat(airspaceLabels(station))
     .filter((each) => each !== null && each !== undefined);
-  const boxes = store.sky.value.aircraft.map((each) => {
-    const { x, y } = toPoint(view, each);
-    return { x: x - SYMBOL, y: y - SYMBOL, width: 2 * SYMBOL, height: 2 * SYMBOL };
-  });
-  const vectors = store.sky.value.aircraft.map((each) =>
-    toPoint(view, straightOn(each, VECTOR / 2)),
-  );
-  const placed = placeLabels(
-    labels,
-    {
-      isSeen: (point) => within(glass, point),
-      boxes: [...boxes, { x: glass.width - BUTTONS.width, y: 0, ...BUTTONS }],
-      points: [...vectors, ...routePoints(station)],
-    },
-    before.current,
-  );
-  before.current = placed;
+  // where the ground is only moved, labels keep their places beside what they belong to
+  const { scale, size } = view;
+  const key = JSON.stringify([store.sky.value.t, scale.value, size.value, labels.map(textOf)]);
+  if (key !== before.current.key)
+    before.current = { key, places: placesOf(station, labels, before.current.places) };
+  const placed = before.current.places;
   return (
     <g class="atc-labels" font-size={typeOf(view)}>
       {labels.map((label) => {
@@ -51,6 +39,36 @@ export function Labels({ station }: { station: Station }) {
       })}
     </g>
   );
+}
+
+interface Placed {
+  readonly key: string;
+  readonly places: ReadonlyMap<string, Placement>;
+}
+
+function textOf({ id, lines }: Label): string {
+  return [id, ...lines.map(({ text }) => text)].join(" ");
+}
+
+function placesOf(
+  station: Station,
+  labels: readonly Label[],
+  before: ReadonlyMap<string, Placement>,
+): ReadonlyMap<string, Placement> {
+  const { view, store } = station;
+  const glass = glassOf(view);
+  const { aircraft } = store.sky.value;
+  const symbols = aircraft.map((each) => {
+    const { x, y } = toPoint(view, each);
+    return { x: x - SYMBOL, y: y - SYMBOL, width: 2 * SYMBOL, height: 2 * SYMBOL };
+  });
+  const vectors = aircraft.map((each) => toPoint(view, straightOn(each, VECTOR / 2)));
+  const around = {
+    isSeen: (point: Point) => within(glass, point),
+    boxes: [...symbols, { x: glass.width - BUTTONS.width, y: 0, ...BUTTONS }],
+    points: [...vectors, ...routePoints(station)],
+  };
+  return placeLabels(labels, around, before);
 }
 
 function Written({ label, place }: { label: Label; place: Placement }) {
