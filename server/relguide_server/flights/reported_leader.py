@@ -4,15 +4,13 @@ What it flies from second to second is the business of `atc`, which has the repo
 """
 
 from collections.abc import Callable
-from math import cos, degrees, hypot, radians, sin
+from math import atan2, cos, degrees, hypot, sin
 from typing import NamedTuple
 
 from relguide.contract.bodies import GeodeticLeader, GeodeticPursuer, wind_of
 from relguide.contract.compass import compass
 from relguide.contract.messages import FlightRequest, SituationFlightRequest
 from relguide.contract.refusal import ContractError
-from relguide.kernels.base.angles import bearing
-from relguide.planning.frames import LocalPlane
 from relguide.units import Metre, MetrePerSecond, Radian
 
 BY_ITS_CLOCK = (
@@ -67,7 +65,7 @@ def begun_at_report(wanted: FlightRequest, lookup: Lookup) -> FlightRequest:
     leader = GeodeticLeader(
         lat_deg=place.lat_deg,
         lon_deg=place.lon_deg,
-        heading_deg=compass(degrees(bearing(east, north))),
+        heading_deg=compass(degrees(atan2(east, north))),
         tas_mps=hypot(east, north),
         intent=[],
         altitude_m=place.altitude,

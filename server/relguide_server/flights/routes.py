@@ -59,6 +59,7 @@ from relguide_server.flights.control import HELD, MODELLED, MOST_RATE, TOO_FAST
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.peers import Peers
+from relguide_server.flights.reported_leader import BY_ITS_CLOCK, begun_at_report
 from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
 from relguide_server.flights.watchers import TooManyWatch
 from relguide_server.http.access import expect_owner, may_command, owner_of
@@ -148,7 +149,8 @@ async def start_flight(
     whether it is on record already (`yes`) or not, or not yet (`no`).
     """
     try:
-        wanted = parse(NewFlight, await read_object(request)).root
+        asked = parse(NewFlight, await read_object(request)).root
+        wanted = begun_at_report(asked, request.app.state.reported_place)
         # A recorded leader is read from a file: not on the event loop.
         departure = await asyncio.to_thread(catalogue.find, wanted)
     except ContractError as error:
@@ -178,6 +180,7 @@ async def start_flight(
         paused=wanted.paused,
         record=record,
         modelled=pilot_of(wanted.by_hand) is not None,
+        reported_leader=getattr(wanted, "reported_leader", None) or "",
         owner=owner_of(request),
         client=client_of(request.scope),
         anchor=departure.anchor,
@@ -346,6 +349,8 @@ def status_of(flight: LiveFlight, request: Request) -> FlightStatus:
 
 
 def _command(flight: LiveFlight, command: Command) -> None:
+    if flight.label.reported_leader and isinstance(command, PauseCommand | SetRateCommand):
+        raise Refusal(409, BY_ITS_CLOCK)
     match command:
         case PlayCommand():
             flight.pace.play()
