@@ -55,6 +55,7 @@ if typing.TYPE_CHECKING:
     from relguide.flying.orders import LeaderData as LeaderData
     from relguide.flying.orders import LeaderHeading as LeaderHeading
     from relguide.flying.orders import LeaderLevel as LeaderLevel
+    from relguide.flying.orders import LeaderReport as LeaderReport
     from relguide.flying.orders import LeaderSpeed as LeaderSpeed
     from relguide.flying.orders import PursuerBank as PursuerBank
     from relguide.flying.orders import PursuerHeading as PursuerHeading
@@ -168,6 +169,7 @@ _HOMES = {
     "LeaderData": "relguide.flying.orders",
     "LeaderHeading": "relguide.flying.orders",
     "LeaderLevel": "relguide.flying.orders",
+    "LeaderReport": "relguide.flying.orders",
     "LeaderSpeed": "relguide.flying.orders",
     "PursuerHeading": "relguide.flying.orders",
     "PursuerBank": "relguide.flying.orders",
@@ -288,6 +290,7 @@ __all__ = [
     "LeaderData",
     "LeaderHeading",
     "LeaderLevel",
+    "LeaderReport",
     "LeaderRoute",
     "LeaderSpeed",
     "LevelChange",

@@ -28,6 +28,7 @@ from relguide import (
     LeaderData,
     LeaderHeading,
     LeaderLevel,
+    LeaderReport,
     LeaderSpeed,
     LevelChange,
     Link,
@@ -299,6 +300,10 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "LeaderData": (LeaderData, {"received": False}),
     "LeaderHeading": (LeaderHeading, {"heading": 1.0, "direction": "left"}),
     "LeaderLevel": (LeaderLevel, {"altitude": 8e3, "rate": 8.0}),
+    "LeaderReport": (
+        LeaderReport,
+        {"x": 1e3, "y": 2e3, "track": 1.0, "ground_speed": 200.0, "altitude": 8e3},
+    ),
     "LeaderSpeed": (LeaderSpeed, {"tas": 190.0}),
     "Link": (Link, LINK),
     "PursuerHeading": (PursuerHeading, {"heading": 1.0}),

@@ -4,10 +4,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from relguide.contract.crew_lines import Deflection, Ident
+from relguide.contract.crew_lines import Deflection, GroundSpeed, Ident
 from relguide.contract.intent_bodies import Bank, ClimbRate
 from relguide.contract.other_bodies import Distance, Tas
-from relguide.contract.places import Altitude
+from relguide.contract.places import Altitude, Position
 from relguide.contract.refusal import Strict
 from relguide.flying.engagement import Engagement
 from relguide.flying.plan_documents import Direction
@@ -72,6 +72,28 @@ class LeaderLevelCommand(Strict):
     """Pressure altitude."""
     rate_mps: ClimbRate = 7.62
     """How fast; if left out, 1,500 ft/min."""
+    ident: Ident = ""
+    """Of the aircraft; if left out, the first link's leader."""
+
+
+class LeaderReportCommand(Strict):
+    """Say where the leader will be a second from now, as it is reported: it flies there.
+
+    Sent each second, it flies as another aircraft does; without the next one it flies straight on.
+    """
+
+    command: Literal["leader_report"]
+    """Which command it is."""
+    x_m: Position
+    """East, in the plane of the flight."""
+    y_m: Position
+    """North."""
+    track_deg: float
+    """Direction of its ground velocity, clockwise from the plane's north."""
+    ground_speed_mps: GroundSpeed
+    """Over the ground."""
+    altitude_m: Altitude
+    """Pressure altitude."""
     ident: Ident = ""
     """Of the aircraft; if left out, the first link's leader."""
 
@@ -203,6 +225,7 @@ Command = Annotated[
     | LeaderHeadingCommand
     | LeaderSpeedCommand
     | LeaderLevelCommand
+    | LeaderReportCommand
     | IntentKnownCommand
     | LeaderDataCommand
     | PursuerHeadingCommand

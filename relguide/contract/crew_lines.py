@@ -19,6 +19,7 @@ from relguide.contract.refusal import TAG, Strict
 from relguide.flying.engagement import Engagement
 from relguide.flying.orders import (
     DEFLECTION,
+    GROUND_SPEED,
     CrewCommand,
     LeaderData,
     PursuerBank,
@@ -35,6 +36,7 @@ from relguide.flying.scripted_crew import Cue
 Ident = Annotated[str, Field(max_length=100)]
 OrderTime = Annotated[float, Field(ge=0.0)]
 Deflection = Annotated[float, Accepted(DEFLECTION)]
+GroundSpeed = Annotated[float, Accepted(GROUND_SPEED)]
 
 
 def _is_left_out(schema: dict[str, Any]) -> None:

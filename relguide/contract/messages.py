@@ -39,6 +39,7 @@ from relguide.contract.crew_lines import CrewOrderLine
 from relguide.contract.flown_bodies import FlownSituationBody
 from relguide.contract.intent_bodies import Intent
 from relguide.contract.order_lines import OrderLine
+from relguide.contract.other_bodies import Ident
 from relguide.contract.pilot_bodies import ByHand
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
@@ -394,6 +395,10 @@ class SituationFlightRequest(_HowToFly):
     """As `POST /plans` takes it, and what only a flight depends on."""
     flown_intent: Intent | None = None
     """What the leader flies if that is not what it declares in `situation`: it breaks its word."""
+    reported_leader: Ident | None = None
+    """The aircraft of the picture of air traffic that is the leader: it begins, and flies, as that
+    one is reported, whatever place `situation` gives. The situation is on the earth, and the flight
+    is flown at rate 1."""
 
 
 def _which_request(value: Any) -> str:

@@ -10,6 +10,7 @@ from relguide.contract.compass import heading_of
 from relguide.contract.crew_lines import (
     CREW_LINES,
     CrewOrderLine,
+    GroundSpeed,
     Ident,
     OrderTime,
     expect_one,
@@ -17,7 +18,7 @@ from relguide.contract.crew_lines import (
 )
 from relguide.contract.intent_bodies import ClimbRate
 from relguide.contract.other_bodies import Tas
-from relguide.contract.places import Altitude
+from relguide.contract.places import Altitude, Position
 from relguide.contract.refusal import TAG, Strict
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.flying.orders import (
@@ -25,6 +26,7 @@ from relguide.flying.orders import (
     LeaderCommand,
     LeaderHeading,
     LeaderLevel,
+    LeaderReport,
     LeaderSpeed,
 )
 
@@ -80,6 +82,40 @@ class LevelOrder(LeaderLine):
         return LeaderLevel(altitude=self.leader_level_m, rate=self.rate_mps, ident=self.ident)
 
 
+class Reported(Strict):
+    """Where an aircraft is, over the ground."""
+
+    x_m: Position
+    """East, in the plane of the flight."""
+    y_m: Position
+    """North."""
+    track_deg: float
+    """Direction of its ground velocity, clockwise from the plane's north."""
+    ground_speed_mps: GroundSpeed
+    """Over the ground."""
+    altitude_m: Altitude
+    """Pressure altitude."""
+
+
+class ReportOrder(LeaderLine):
+    """The leader flies to where it is reported to be a second later."""
+
+    leader_report: Reported
+    """Where that is."""
+
+    def command(self) -> LeaderCommand:
+        """What the flight is given."""
+        then = self.leader_report
+        return LeaderReport(
+            x=then.x_m,
+            y=then.y_m,
+            track=heading_of(then.track_deg),
+            ground_speed=then.ground_speed_mps,
+            altitude=then.altitude_m,
+            ident=self.ident,
+        )
+
+
 class IntentOrder(LeaderLine):
     """The leader's intent is given to the pursuer, or withdrawn."""
 
@@ -95,6 +131,7 @@ _LEADER_LINES: Mapping[str, type[LeaderLine]] = {
     "leader_heading_deg": HeadingOrder,
     "leader_tas_mps": SpeedOrder,
     "leader_level_m": LevelOrder,
+    "leader_report": ReportOrder,
     "intent_known": IntentOrder,
 }
 _LINES = {**_LEADER_LINES, **CREW_LINES}
@@ -110,6 +147,7 @@ OrderLine = Annotated[
     Annotated[HeadingOrder, Tag("#HeadingOrder")]
     | Annotated[SpeedOrder, Tag("#SpeedOrder")]
     | Annotated[LevelOrder, Tag("#LevelOrder")]
+    | Annotated[ReportOrder, Tag("#ReportOrder")]
     | Annotated[IntentOrder, Tag("#IntentOrder")]
     | Annotated[CrewOrderLine, Tag("#crew")],
     Discriminator(_kind_of),

@@ -24,8 +24,9 @@ from relguide.flying.leaders.declared import (
     straight_heading,
     turn_program,
 )
-from relguide.flying.leaders.recorded import RecordedLeader, steps_of_track
+from relguide.flying.leaders.recorded import RecordedLeader, steps_of_track, steps_to
 from relguide.flying.perception import CERTAIN, Perceived, Perception
+from relguide.flying.tracks import TrackState
 from relguide.flying.vertical import (
     begin_change,
     climb_by_stick,
@@ -38,6 +39,7 @@ from relguide.flying.vertical import (
 )
 from relguide.flying.world import FLOWN_POSITION, Aircraft, Declared, Guided, Recorded, World
 from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight import by_hand
 from relguide.kernels.flight.energy import idle_deceleration
 from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits, limits_at
@@ -140,6 +142,8 @@ class Fleet:
         """What each can do in level flight."""
         self.declared: list[Program] = []
         self.recordings: dict[int, RecordedLeader] = {}
+        self.reported: dict[int, tuple[Second, RecordedLeader]] = {}
+        """What those fly in a second that were reported as it began."""
         self.winds = np.zeros((count, steps + 1, 2))
         self.gusts = np.zeros((count, STATE))
         self.rng = np.random.default_rng([seed, count])
@@ -177,6 +181,7 @@ class Fleet:
         self.declared[i] = program
         self.pilots[i] = PROGRAMMED
         self.recordings.pop(i, None)
+        self.reported.pop(i, None)
         self.programs[i, : len(program.rows)] = program.rows
         self.lengths[i], self.cursors[i], self.helds[i] = len(program.rows), 0, program.held
 
@@ -198,9 +203,17 @@ class Fleet:
         tas = float(self.states[i, 5])
         self.verticals[i] = begin_change(self.verticals[i], to, rate, hold, tas, self.world.air)
 
+    def fly_to(self, i: int, then: TrackState, t: Second) -> None:
+        """Have an aircraft be somewhere in a second, where it is reported; t is now [s]."""
+        self.leave_recording(i)
+        body, altitude = Body(*self.states[i].tolist()), self.verticals[i].altitude
+        wind = self._wind_at(i, altitude, t)
+        self.pilots[i] = RECORDED
+        self.reported[i] = t, steps_to(then, body, altitude, wind, self.step)
+
     def leave_recording(self, i: int) -> None:
-        """A recorded aircraft flies on under its own autopilot, as it flies now."""
-        if i in self.recordings:
+        """A recorded or reported aircraft flies on under its own autopilot, as it flies now."""
+        if i in self.recordings or i in self.reported:
             self.controls[i, 2] = self.states[i, 5]
             self.verticals[i] = level_off(self.verticals[i])
             heading = float(self.states[i, 2])
@@ -220,16 +233,23 @@ class Fleet:
         """Settle what holds for the second from t on: recordings, altitudes and winds."""
         first = round(t / self.step)
         self.trace[:, 0], self.bars[:, 0] = self.states, self.bars[:, -1]
+        for i in [i for i, (since, _) in self.reported.items() if since < t]:
+            self.leave_recording(i)
         self._climb(t)
         for i, recording in self.recordings.items():
             steps = np.minimum(np.arange(first, first + self.steps + 1), len(recording.rows) - 1)
-            self.trace[i] = recording.rows[steps]
-            self.altitudes[i] = levels = recording.altitude[steps]
-            now = level_at(float(levels[-1]))
-            self.verticals[i] = now._replace(speed=float(levels[-1] - levels[0]))
+            self._fly_as_given(i, recording.rows[steps], recording.altitude[steps])
+        for i, (_, reported) in self.reported.items():
+            self._fly_as_given(i, reported.rows, reported.altitude)
         self._blow(t)
         for i, rng in self.pilot_rngs.items():
             self.whites[i] = rng.standard_normal(self.steps)
+
+    def _fly_as_given(self, i: int, rows: FloatArray, levels: FloatArray) -> None:
+        """Have an aircraft fly rows and levels in the second that begins."""
+        self.trace[i], self.altitudes[i] = rows, levels
+        now = level_at(float(levels[-1]))
+        self.verticals[i] = now._replace(speed=float(levels[-1] - levels[0]))
 
     def fly_steps(self, t: Second, begin: int, end: int) -> None:
         """All aircraft over some steps of the second from t on, once it is begun."""

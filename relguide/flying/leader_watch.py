@@ -14,6 +14,7 @@ from relguide.flying.orders import (
     LeaderCommand,
     LeaderHeading,
     LeaderLevel,
+    LeaderReport,
     LeaderSpeed,
 )
 from relguide.flying.pursuit import Pursuit
@@ -41,6 +42,9 @@ def note_command(one: Pursuit, command: LeaderCommand, t: Second) -> None:
             said = "The leader was ordered to another speed."
         case LeaderLevel():
             said = "The leader was ordered to another level."
+        case LeaderReport():
+            one.declared = None
+            return
         case IntentKnown():
             return
     one.view = one.view._replace(rerouted=True, changed=said, changed_at=t)

@@ -10,8 +10,10 @@ from relguide.flying.orders import (
     LeaderCommand,
     LeaderHeading,
     LeaderLevel,
+    LeaderReport,
     LeaderSpeed,
 )
+from relguide.flying.tracks import TrackState
 from relguide.kernels.base.angles import wrap
 from relguide.planning.phrases import compass
 from relguide.units import DEG, KT, Radian, Second
@@ -49,6 +51,13 @@ def obey(
             way, level = "descend" if below else "climb", flight_level(altitude)
             message = f"{who} is instructed to {way} to {level}."
             return known, (LeaderChanged(t=t, ident=ident, change="level", message=message),)
+        case LeaderReport(x=x, y=y, track=track, ground_speed=speed, altitude=altitude):
+            fleet.fly_to(i, TrackState(x, y, track, speed, altitude), t)
+            if not known:
+                return False, ()  # what it does is seen as it does it
+            message = f"{who} flies as it is reported: its intent is not known."
+            said = LeaderChanged(t=t, ident=ident, change="intent_withdrawn", message=message)
+            return False, (said,)
         case IntentKnown(known=now) if now == known:
             return known, ()
         case IntentKnown(known=True):

@@ -8,12 +8,22 @@ from typing import Literal, get_args
 from relguide.flying.engagement import Engagement
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.planning.inputs import Range, expect_within, number, text, truth
-from relguide.planning.limits import ALTITUDE, BANK, DISTANCE, HEADING, TAS, VERTICAL_RATE
+from relguide.planning.limits import (
+    ALTITUDE,
+    BANK,
+    DISTANCE,
+    HEADING,
+    POSITION,
+    TAS,
+    VERTICAL_RATE,
+)
 from relguide.planning.reprs import as_code
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
 DEFLECTION = Range(-1.0, 1.0, "of full deflection")
 """Of a stick."""
+GROUND_SPEED = Range(0.0, 600.0, "m/s")
+"""Of an aircraft that is reported."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,6 +80,44 @@ class LeaderLevel:
         for name, accepted in (("altitude", ALTITUDE), ("rate", VERTICAL_RATE)):
             value = expect_within(name, getattr(self, name), *accepted)
             object.__setattr__(self, name, value)
+        text("ident", self.ident)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LeaderReport:
+    """Where an aircraft is reported to be, a second from now: it flies there.
+
+    It drops its intent, or leaves its recording. Without another report in the next second it
+    flies on as it then flies.
+    """
+
+    x: Metre
+    """East [m]."""
+    y: Metre
+    """North [m]."""
+    track: Radian
+    """Direction of its ground velocity, clockwise from north [rad]."""
+    ground_speed: MetrePerSecond
+    """[m/s]."""
+    altitude: Metre
+    """Pressure altitude [m]."""
+    ident: str = ""
+    """Of the aircraft; empty for the first link's leader."""
+    kind: Literal["leader_report"] = "leader_report"
+    __repr__ = as_code
+
+    def __post_init__(self) -> None:
+        """Refuse what no aircraft flies."""
+        accepted = {
+            "x": POSITION,
+            "y": POSITION,
+            "ground_speed": GROUND_SPEED,
+            "altitude": ALTITUDE,
+        }
+        for name, bounds in accepted.items():
+            object.__setattr__(self, name, expect_within(name, getattr(self, name), *bounds))
+        track = expect_within("track", self.track, *HEADING)
+        object.__setattr__(self, "track", _as_recorded(track))
         text("ident", self.ident)
 
 
@@ -281,7 +329,7 @@ def _as_recorded(angle: Radian) -> Radian:
 
 NewTask = PursuerBank | PursuerSpeed | SetSpacing
 """What a crew asks of its guidance."""
-LeaderCommand = LeaderHeading | LeaderSpeed | LeaderLevel | IntentKnown
+LeaderCommand = LeaderHeading | LeaderSpeed | LeaderLevel | LeaderReport | IntentKnown
 """What a leader does, or any other aircraft that is not guided."""
 CrewCommand = (
     LeaderData
@@ -317,7 +365,7 @@ def order_fault(
     if ident and ident not in aircraft:
         return f"There is no aircraft {ident!r} to order: there are {', '.join(aircraft)}."
     match command:
-        case LeaderHeading() | LeaderSpeed() | LeaderLevel():
+        case LeaderHeading() | LeaderSpeed() | LeaderLevel() | LeaderReport():
             ordered = ident or next((leader for _, leader in links), "")
             if ordered in pursuers:
                 return (

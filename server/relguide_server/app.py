@@ -21,6 +21,7 @@ from relguide_server.atc import export_routes, traffic_routes
 from relguide_server.atc import routes as clearance_routes
 from relguide_server.atc.desk import Desk
 from relguide_server.atc.feeds.feeds import Feeds
+from relguide_server.atc.reported_leaders import ReportedLeaders
 from relguide_server.atc.reports import Reports
 from relguide_server.atc.skies import Skies
 from relguide_server.atc.watching import Watching
@@ -124,8 +125,10 @@ def create_app(
     reports = Reports()
     feeds = Feeds(feeds_of(settings.feed), reports)
     metrics.watch(feeds.measure)
-    desk = Desk(Skies(fleet, reports), settings, records, metrics)
-    watching = Watching(desk, reports)
+    skies = Skies(fleet, reports)
+    leaders = ReportedLeaders(fleet, reports, skies)
+    desk = Desk(skies, settings, records, metrics)
+    watching = Watching(desk, reports, leaders)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -167,6 +170,7 @@ def create_app(
     app.state.settings, app.state.catalogue = settings, catalogue
     app.state.records, app.state.recordings = records, KeptRecordings()
     app.state.reports, app.state.feeds, app.state.desk = reports, feeds, desk
+    app.state.reported_place = leaders.place
     app.state.peers = Peers(settings.peers, process=settings.process)
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     app.router.routes[:0] = plans.router.routes  # most requests are for these

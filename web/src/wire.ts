@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-a7258bdd8f3f";
+export const PROTOCOL = "relguide-76a5c65893ad";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -159,7 +159,13 @@ export type CrewOrderLine =
   | LeaderDataOrder;
 
 /** An order at a flight time. */
-export type OrderLine = HeadingOrder | SpeedOrder | LevelOrder | IntentOrder | CrewOrderLine;
+export type OrderLine =
+  | HeadingOrder
+  | SpeedOrder
+  | LevelOrder
+  | ReportOrder
+  | IntentOrder
+  | CrewOrderLine;
 
 /** A command to a flight. */
 export type Command =
@@ -169,6 +175,7 @@ export type Command =
   | LeaderHeadingCommand
   | LeaderSpeedCommand
   | LeaderLevelCommand
+  | LeaderReportCommand
   | IntentKnownCommand
   | LeaderDataCommand
   | PursuerHeadingCommand
@@ -671,6 +678,7 @@ export interface CommandGiven {
     | LeaderHeading
     | LeaderSpeed
     | LeaderLevel
+    | LeaderReport
     | IntentKnown
     | LeaderData
     | PursuerHeading
@@ -1337,6 +1345,47 @@ export interface LeaderLevelCommand {
   command: "leader_level";
   altitude_m: number;
   rate_mps?: number;
+  ident?: string;
+}
+
+/**
+ * Where an aircraft is reported to be, a second from now: it flies there.
+ *
+ * It drops its intent, or leaves its recording. Without another report in the next second it
+ * flies on as it then flies.
+ */
+export interface LeaderReport {
+  kind: "leader_report";
+  /** East [m]. */
+  x_m: number;
+  /** North [m]. */
+  y_m: number;
+  /** Direction of its ground velocity, clockwise from north [rad]. */
+  track_deg: number;
+  /** [m/s]. */
+  ground_speed_mps: number;
+  /** Pressure altitude [m]. */
+  altitude_m: number;
+  /** Of the aircraft; empty for the first link's leader. */
+  ident: string;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number;
+}
+
+/**
+ * Say where the leader will be a second from now, as it is reported: it flies there.
+ *
+ * Sent each second, it flies as another aircraft does; without the next one it flies straight on.
+ */
+export interface LeaderReportCommand {
+  command: "leader_report";
+  x_m: number;
+  y_m: number;
+  track_deg: number;
+  ground_speed_mps: number;
+  altitude_m: number;
   ident?: string;
 }
 
@@ -2048,6 +2097,22 @@ export interface PursuerSpeedOrder {
   pursuer_tas_mps: number | null;
 }
 
+/** The leader flies to where it is reported to be a second later. */
+export interface ReportOrder {
+  t_s: number;
+  ident?: string;
+  leader_report: Reported;
+}
+
+/** Where an aircraft is, over the ground. */
+export interface Reported {
+  x_m: number;
+  y_m: number;
+  track_deg: number;
+  ground_speed_mps: number;
+  altitude_m: number;
+}
+
 /** The flight at one instant. */
 export interface Sample {
   kind: "sample";
@@ -2218,6 +2283,7 @@ export interface SituationFlightRequest {
   crew?: CrewOrderLine[] | null;
   situation: FlownSituationBody;
   flown_intent?: IntentPiece[] | null;
+  reported_leader?: string | null;
 }
 
 /** A sky: one plane, one clock. Flights without a place on the earth have one each. */

@@ -274,12 +274,16 @@ class Skies:
         """How a flight lies in its sky."""
         if self.of(flight) != EARTH:
             return Placing()
+        return Placing(later=self.begun(flight), of=flight.label.plane, to=self._earth())
+
+    def begun(self, flight: LiveFlight) -> Second:
+        """UTC at flight time 0 of a flight at rate 1, steady from second to second [s]."""
         begun = self._clock() - flight.t
         known = self._begun.get(flight.label.id)
         if known is not None and known <= begun < known + LATE:
             begun = known
         self._begun[flight.label.id] = begun
-        return Placing(later=begun, of=flight.label.plane, to=self._earth())
+        return begun
 
     # -- inside -----------------------------------------------------------------------------------
 

@@ -15,6 +15,7 @@ from relguide.units import Second
 from relguide_server.atc.cases import Case
 from relguide_server.atc.desk import Desk
 from relguide_server.atc.journal import written
+from relguide_server.atc.reported_leaders import ReportedLeaders
 from relguide_server.atc.reports import Reports
 from relguide_server.atc.skies import EARTH
 from relguide_server.atc.traffic_seen import places_of, traffic_seen
@@ -34,8 +35,8 @@ DISCONNECTED = "The crew has disconnected guidance."
 class Watching:
     """Passes time to the desk. Lives on the event loop, from `start` to `stop`."""
 
-    def __init__(self, desk: Desk, reports: Reports) -> None:
-        self._desk, self._reports = desk, reports
+    def __init__(self, desk: Desk, reports: Reports, leaders: ReportedLeaders) -> None:
+        self._desk, self._reports, self._leaders = desk, reports, leaders
         self._shown: dict[str, Second] = {}
         """When the traffic of a sky was sent last, in its own time."""
         self._task: asyncio.Task[None] | None = None
@@ -63,6 +64,7 @@ class Watching:
     def pass_second(self) -> None:
         """All that a second brings."""
         desk = self._desk
+        self._leaders.pass_second()
         desk.skies.look(keep_earth=bool(desk.cases.living(EARTH)))
         for case in desk.cases.living():
             self._pass(case)

@@ -96,6 +96,7 @@ class LiveFleet:
         record: Callable[[str], Recorder],
         replay: bool = False,
         modelled: bool = False,
+        reported_leader: str = "",
         owner: str = "",
         client: str = "",
         anchor: Anchor = UNANCHORED,
@@ -112,6 +113,7 @@ class LiveFleet:
             record: what records it, given its id.
             replay: whether it is a recording.
             modelled: whether a modelled pilot flies it by hand.
+            reported_leader: the aircraft of the picture that its leader flies as, if there is one.
             owner: who starts it, and may command it.
             client: whose share of the flights it counts in.
             anchor: how its world lies on the earth.
@@ -127,6 +129,7 @@ class LiveFleet:
             title=title,
             replay=replay,
             modelled=modelled,
+            reported_leader=reported_leader,
             owner=owner,
             client=client,
             anchor=anchor,

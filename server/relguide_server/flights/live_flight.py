@@ -54,6 +54,9 @@ class FlightLabel:
     """Whether a modelled pilot flies while the autopilot does not: no client then moves a stick."""
     anchor: Anchor = UNANCHORED
     """How its world lies on the earth."""
+    reported_leader: str = ""
+    """The aircraft of the picture of air traffic that its leader flies as; empty: it is simulated.
+    """
     owner: str = ""
     """Who started it, as `access.owner_of` says it."""
     client: str = ""

@@ -15,6 +15,7 @@ from relguide.contract.commands import (
     LeaderDataCommand,
     LeaderHeadingCommand,
     LeaderLevelCommand,
+    LeaderReportCommand,
     LeaderSpeedCommand,
     PauseCommand,
     PlayCommand,
@@ -41,6 +42,7 @@ from relguide.flying.orders import (
     LeaderData,
     LeaderHeading,
     LeaderLevel,
+    LeaderReport,
     LeaderSpeed,
     PursuerBank,
     PursuerHeading,
@@ -57,6 +59,7 @@ from relguide_server.flights.control import HELD, MODELLED, MOST_RATE, TOO_FAST
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.peers import Peers
+from relguide_server.flights.reported_leader import BY_ITS_CLOCK, begun_at_report
 from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
 from relguide_server.flights.watchers import TooManyWatch
 from relguide_server.http.access import expect_owner, may_command, owner_of
@@ -146,7 +149,8 @@ async def start_flight(
     whether it is on record already (`yes`) or not, or not yet (`no`).
     """
     try:
-        wanted = parse(NewFlight, await read_object(request)).root
+        asked = parse(NewFlight, await read_object(request)).root
+        wanted = begun_at_report(asked, request.app.state.reported_place)
         # A recorded leader is read from a file: not on the event loop.
         departure = await asyncio.to_thread(catalogue.find, wanted)
     except ContractError as error:
@@ -176,6 +180,7 @@ async def start_flight(
         paused=wanted.paused,
         record=record,
         modelled=pilot_of(wanted.by_hand) is not None,
+        reported_leader=getattr(wanted, "reported_leader", None) or "",
         owner=owner_of(request),
         client=client_of(request.scope),
         anchor=departure.anchor,
@@ -344,6 +349,8 @@ def status_of(flight: LiveFlight, request: Request) -> FlightStatus:
 
 
 def _command(flight: LiveFlight, command: Command) -> None:
+    if flight.label.reported_leader and isinstance(command, PauseCommand | SetRateCommand):
+        raise Refusal(409, BY_ITS_CLOCK)
     match command:
         case PlayCommand():
             flight.pace.play()
@@ -359,6 +366,8 @@ def _command(flight: LiveFlight, command: Command) -> None:
             _order(flight, LeaderSpeed(tas=tas, ident=ident))
         case LeaderLevelCommand(altitude_m=altitude, rate_mps=rate, ident=ident):
             _order(flight, LeaderLevel(altitude=altitude, rate=rate, ident=ident))
+        case LeaderReportCommand():
+            _order(flight, _leader_report(command))
         case IntentKnownCommand(known=known, ident=ident):
             _order(flight, IntentKnown(known=known, ident=ident))
         case LeaderDataCommand(received=received, ident=ident):
@@ -379,6 +388,17 @@ def _command(flight: LiveFlight, command: Command) -> None:
             _order(flight, SetDirector(on=on, ident=ident))
         case StickCommand(roll=roll, pitch=pitch, ident=ident):
             _move_stick(flight, Stick(roll=roll, pitch=pitch, ident=ident))
+
+
+def _leader_report(command: LeaderReportCommand) -> LeaderReport:
+    return LeaderReport(
+        x=command.x_m,
+        y=command.y_m,
+        track=heading_of(command.track_deg),
+        ground_speed=command.ground_speed_mps,
+        altitude=command.altitude_m,
+        ident=command.ident,
+    )
 
 
 def _order(flight: LiveFlight, order: Order) -> None:

@@ -95,11 +95,11 @@ def test_each_is_given_once_at_its_time() -> None:
         (b"\xff", "This is not UTF-8 text"),
         (
             b'{"t_s": 400}',
-            "This must have one of leader_heading_deg, leader_tas_mps, leader_level_m, inte",
+            "This must have one of leader_heading_deg, leader_tas_mps, leader_level_m, lead",
         ),
         (
             b'{"t_s": 400, "leader_tas_mps": 200, "intent_known": true}',
-            "This must have one of leader_heading_deg, leader_tas_mps, leader_level_m, inte",
+            "This must have one of leader_heading_deg, leader_tas_mps, leader_level_m, lead",
         ),
         (b'{"leader_tas_mps": 200}', "t_s: is missing."),
         (b'{"t_s": 59, "intent_known": true}', "t_s: must be at least 60, that of the order befo"),

@@ -94,14 +94,17 @@ def kinds_in(kind: object) -> Iterator[tuple[str, str]]:
 
 
 def has_all_of(now: str | None, before: str) -> bool:
-    """Whether a field is as it was; a list of documents may have new kinds of them, and no less."""
+    """Whether a field is as it was; of documents and orders there may be new kinds, and no less."""
     if now is None:
         return False
     new, old = json.loads(now), without_discriminators(json.loads(before))
     assert isinstance(old, dict)
-    if not before.startswith('{"items": {"discriminator"'):
+    if before.startswith('{"items": {"discriminator"'):
+        shapes, needed = (each["items"].pop("oneOf") for each in (new, old))
+    elif before.startswith('{"discriminator"'):
+        shapes, needed = (each.pop("oneOf") for each in (new, old))
+    else:
         return new == old
-    shapes, needed = (each["items"].pop("oneOf") for each in (new, old))
     return new == old and all(shape in shapes for shape in needed)
 
 
