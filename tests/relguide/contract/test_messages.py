@@ -55,4 +55,4 @@ def test_commands_are_read(command: dict[str, Any]) -> None:
 
 def test_every_command_has_its_name() -> None:
     models = get_args(get_args(Command)[0])
-    assert len({get_args(m.model_fields["command"].annotation)[0] for m in models}) == 16
+    assert len({get_args(m.model_fields["command"].annotation)[0] for m in models}) == 17
