@@ -16,10 +16,10 @@ from relguide_server.doors.connection_shares import ConnectionShares
 from relguide_server.shares.clients import client_at
 
 A_SECOND = 256 * 1024
-"""What a client may send, in bytes a second: three times what streams and scenes allow."""
-AT_ONCE = 256 * 1024
+"""What a client may send, in bytes a second: twice what scenes allow."""
+AT_ONCE = 1024 * 1024
 """The same at once, after a while of silence [bytes]: room to be told why, for who is only fast."""
-A_FRAME = 256
+A_FRAME = 640
 """What a frame counts beside its bytes, as each takes time, however small it is [bytes]."""
 A_SLICE = 1024
 """So much is read before what it held is counted [bytes]."""
