@@ -102,10 +102,8 @@ def test_a_proxy_that_is_believed_says_who_asks(proxies: str, recorded: str) -> 
     noted: list[str] = []
     app.state.records.note_command = lambda *_, sent_by, **__: noted.append(sent_by)
     with serve(app) as address:
-        flight = httpx.post(f"http://{address}/api/v1/flights", json=FLIGHT).json()
-        httpx.post(
-            f"http://{address}/api/v1/flights/{flight['id']}/commands",
-            json={"command": "play"},
-            headers={"X-Forwarded-For": "203.0.113.9"},
-        )
+        asks = {"X-Forwarded-For": "203.0.113.9"}
+        flights = f"http://{address}/api/v1/flights"
+        flight = httpx.post(flights, json=FLIGHT, headers=asks).json()
+        httpx.post(f"{flights}/{flight['id']}/commands", json={"command": "play"}, headers=asks)
     assert noted == [recorded]
