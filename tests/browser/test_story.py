@@ -35,7 +35,7 @@ def test_a_crew_lays_out_flies_joins_loses_its_leader_and_disconnects(
     expect(page.locator(".nd-proposed")).to_be_attached()
     page.get_by_role("button", name="Accept").click()
     expect(state).to_have_text("Armed")
-    expect(order).to_have_text("ACCEPTED")
+    expect(order).to_have_text("VALIDATED AUTO")
     expect(page.locator(".nd-armed")).to_be_attached()
     page.get_by_role("button", name="Engage").click()
     expect(lateral).to_have_text("RG CNV")
