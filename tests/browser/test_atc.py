@@ -60,6 +60,7 @@ def test_a_controller_works_five_requests_by_keyboard_alone(asked: Page) -> None
     asked.keyboard.press("p")
     expect(asked.locator(".tried")).to_contain_text(re.compile("ACCEPTABLE|UNABLE"))
     asked.keyboard.press("u")
+    expect(asked.locator(".atc-reasons button:focus")).to_have_count(1)
     asked.keyboard.press("Enter")
     expect(strip(asked)).to_have_text("UNABLE")
     choose_waiting(asked)

@@ -112,6 +112,7 @@ class Watching:
         if flight is None:
             self._give_up(case, GONE, now, at)
             return
+        flight.note_seen()  # it makes no room for others while its clearance lives
         if desk.skies.of(flight) != was.sky:
             self._give_up(case, MOVED, now, at)
             return

@@ -223,3 +223,14 @@ def test_a_reported_aircraft_that_strays_deviates_comes_back_and_is_terminated(
     desk.rules = AtcSettings(back_within=1.5)
     wait_for(goes("terminated", 2_500.0))
     assert "did not come back" in case.clearance.history[-1].message
+
+
+def test_a_flight_with_a_clearance_makes_no_room_for_others(client: TestClient) -> None:
+    flight = start(client)
+    case = cleared(client, flight)
+    found = desk_of(client).skies.flight(flight)
+    assert found is not None
+    before = found.last_seen
+    found.last_seen = before - 300.0  # nobody asks for it
+    wait_for(lambda: found.last_seen >= before)
+    assert case.lives
