@@ -1,7 +1,9 @@
 """The controller's page: five requests worked by keyboard alone; the past shown; axe-clean."""
 
+import json
 import re
 from collections.abc import Iterator
+from urllib.request import Request, urlopen
 
 import pytest
 from playwright.sync_api import Download, Locator, Page, expect
@@ -15,7 +17,12 @@ ASKED = 60_000
 
 @pytest.fixture
 def asked(sky: Service, page: Page, watched: Watch) -> Iterator[Page]:
-    """The page, with the demonstration begun by keyboard."""
+    """The page, with the demonstration begun by keyboard in a sky that is empty."""
+    flights = f"{sky.url}/api/v1/flights"
+    with urlopen(flights) as answer:
+        flown = [flight["id"] for flight in json.load(answer)["flights"]]
+    for flight in flown:
+        urlopen(Request(f"{flights}/{flight}", method="DELETE")).close()
     page.goto(f"{sky.url}/atc")
     expect(page.locator(".atc-clock .link")).to_have_text("Live")
     page.get_by_role("button", name="Demo").focus()
