@@ -4,10 +4,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from relguide.contract.crew_lines import Deflection, GroundSpeed, Ident
+from relguide.contract.crew_lines import Deflection, Ident, Reported
 from relguide.contract.intent_bodies import Bank, ClimbRate
 from relguide.contract.other_bodies import Distance, Tas
-from relguide.contract.places import Altitude, Position
+from relguide.contract.places import Altitude
 from relguide.contract.refusal import Strict
 from relguide.flying.engagement import Engagement
 from relguide.flying.plan_documents import Direction
@@ -76,7 +76,7 @@ class LeaderLevelCommand(Strict):
     """Of the aircraft; if left out, the first link's leader."""
 
 
-class LeaderReportCommand(Strict):
+class LeaderReportCommand(Reported):
     """Say where the leader will be a second from now, as it is reported: it flies there.
 
     Sent each second, it flies as another aircraft does; without the next one it flies straight on.
@@ -84,16 +84,6 @@ class LeaderReportCommand(Strict):
 
     command: Literal["leader_report"]
     """Which command it is."""
-    x_m: Position
-    """East, in the plane of the flight."""
-    y_m: Position
-    """North."""
-    track_deg: float
-    """Direction of its ground velocity, clockwise from the plane's north."""
-    ground_speed_mps: GroundSpeed
-    """Over the ground."""
-    altitude_m: Altitude
-    """Pressure altitude."""
     ident: Ident = ""
     """Of the aircraft; if left out, the first link's leader."""
 

@@ -15,6 +15,7 @@ from relguide.contract.accepted import Accepted
 from relguide.contract.compass import heading_of
 from relguide.contract.intent_bodies import Bank
 from relguide.contract.other_bodies import Distance, Tas
+from relguide.contract.places import Altitude, Position
 from relguide.contract.refusal import TAG, Strict
 from relguide.flying.engagement import Engagement
 from relguide.flying.orders import (
@@ -22,6 +23,7 @@ from relguide.flying.orders import (
     GROUND_SPEED,
     CrewCommand,
     LeaderData,
+    LeaderReport,
     PursuerBank,
     PursuerHeading,
     PursuerSpeed,
@@ -37,6 +39,32 @@ Ident = Annotated[str, Field(max_length=100)]
 OrderTime = Annotated[float, Field(ge=0.0)]
 Deflection = Annotated[float, Accepted(DEFLECTION)]
 GroundSpeed = Annotated[float, Accepted(GROUND_SPEED)]
+
+
+class Reported(Strict):
+    """Where an aircraft is reported to be, over the ground."""
+
+    x_m: Position
+    """East, in the plane of the flight."""
+    y_m: Position
+    """North."""
+    track_deg: float
+    """Direction of its ground velocity, clockwise from the plane's north."""
+    ground_speed_mps: GroundSpeed
+    """Over the ground."""
+    altitude_m: Altitude
+    """Pressure altitude."""
+
+    def order(self, ident: str) -> LeaderReport:
+        """What a flight is given, for the aircraft of that ident."""
+        return LeaderReport(
+            x=self.x_m,
+            y=self.y_m,
+            track=heading_of(self.track_deg),
+            ground_speed=self.ground_speed_mps,
+            altitude=self.altitude_m,
+            ident=ident,
+        )
 
 
 def _is_left_out(schema: dict[str, Any]) -> None:

@@ -10,15 +10,15 @@ from relguide.contract.compass import heading_of
 from relguide.contract.crew_lines import (
     CREW_LINES,
     CrewOrderLine,
-    GroundSpeed,
     Ident,
     OrderTime,
+    Reported,
     expect_one,
     kind_in,
 )
 from relguide.contract.intent_bodies import ClimbRate
 from relguide.contract.other_bodies import Tas
-from relguide.contract.places import Altitude, Position
+from relguide.contract.places import Altitude
 from relguide.contract.refusal import TAG, Strict
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.flying.orders import (
@@ -26,7 +26,6 @@ from relguide.flying.orders import (
     LeaderCommand,
     LeaderHeading,
     LeaderLevel,
-    LeaderReport,
     LeaderSpeed,
 )
 
@@ -82,21 +81,6 @@ class LevelOrder(LeaderLine):
         return LeaderLevel(altitude=self.leader_level_m, rate=self.rate_mps, ident=self.ident)
 
 
-class Reported(Strict):
-    """Where an aircraft is, over the ground."""
-
-    x_m: Position
-    """East, in the plane of the flight."""
-    y_m: Position
-    """North."""
-    track_deg: float
-    """Direction of its ground velocity, clockwise from the plane's north."""
-    ground_speed_mps: GroundSpeed
-    """Over the ground."""
-    altitude_m: Altitude
-    """Pressure altitude."""
-
-
 class ReportOrder(LeaderLine):
     """The leader flies to where it is reported to be a second later."""
 
@@ -105,15 +89,7 @@ class ReportOrder(LeaderLine):
 
     def command(self) -> LeaderCommand:
         """What the flight is given."""
-        then = self.leader_report
-        return LeaderReport(
-            x=then.x_m,
-            y=then.y_m,
-            track=heading_of(then.track_deg),
-            ground_speed=then.ground_speed_mps,
-            altitude=then.altitude_m,
-            ident=self.ident,
-        )
+        return self.leader_report.order(self.ident)
 
 
 class IntentOrder(LeaderLine):

@@ -6,7 +6,7 @@ package traffic.
 
 from dataclasses import dataclass, field
 from math import atan2, hypot
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -14,6 +14,20 @@ from relguide.flying.spline import Array
 from relguide.kernels.base.angles import wrap
 from relguide.planning.frames import LocalPlane
 from relguide.units import Metre, MetrePerSecond, Radian, Second
+
+U = TypeVar("U", float, Array)
+
+
+def hermite(u: U) -> tuple[U, U, U, U, U, U]:
+    """The cubic Hermite basis of a piece at u, 0 … 1.
+
+    Returns:
+        the weights of the first place, the first velocity and the last one (that of the last place
+        is what the first leaves of 1), then the slopes of these three.
+    """
+    a, b, c = (1.0 - u) ** 2 * (1.0 + 2.0 * u), u * (1.0 - u) ** 2, u * u * (u - 1.0)
+    da, db, dc = 6.0 * u * (u - 1.0), (3.0 * u - 1.0) * (u - 1.0), u * (3.0 * u - 2.0)
+    return a, b, c, da, db, dc
 
 
 class TrackState(NamedTuple):
@@ -95,8 +109,7 @@ class RecordedTrack:
         u = t / step - i
         x0, y0, east0, north0, altitude0 = knots[i].T
         x1, y1, east1, north1, altitude1 = knots[i + 1].T
-        a, b, c = (1.0 - u) ** 2 * (1.0 + 2.0 * u), u * (1.0 - u) ** 2, u * u * (u - 1.0)
-        da, db, dc = 6.0 * u * (u - 1.0), (3.0 * u - 1.0) * (u - 1.0), u * (3.0 * u - 2.0)
+        a, b, c, da, db, dc = hermite(u)
         return (
             a * x0 + (1.0 - a) * x1 + step * (b * east0 + c * east1),
             a * y0 + (1.0 - a) * y1 + step * (b * north0 + c * north1),
@@ -116,9 +129,7 @@ class RecordedTrack:
         x0, y0, east0, north0, altitude0 = knots[i]
         x1, y1, east1, north1, altitude1 = knots[i + 1]
         u = inside / step - i
-        # values of the Hermite basis at u, then their slopes
-        a, b, c = (1.0 - u) ** 2 * (1.0 + 2.0 * u), u * (1.0 - u) ** 2, u * u * (u - 1.0)
-        da, db, dc = 6.0 * u * (u - 1.0), (3.0 * u - 1.0) * (u - 1.0), u * (3.0 * u - 2.0)
+        a, b, c, da, db, dc = hermite(u)
         east = da * (x0 - x1) / step + db * east0 + dc * east1
         north = da * (y0 - y1) / step + db * north0 + dc * north1
         beyond = t - inside

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-76a5c65893ad";
+export const PROTOCOL = "relguide-cdf436e5d354";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -1380,12 +1380,12 @@ export interface LeaderReport {
  * Sent each second, it flies as another aircraft does; without the next one it flies straight on.
  */
 export interface LeaderReportCommand {
-  command: "leader_report";
   x_m: number;
   y_m: number;
   track_deg: number;
   ground_speed_mps: number;
   altitude_m: number;
+  command: "leader_report";
   ident?: string;
 }
 
@@ -2104,7 +2104,7 @@ export interface ReportOrder {
   leader_report: Reported;
 }
 
-/** Where an aircraft is, over the ground. */
+/** Where an aircraft is reported to be, over the ground. */
 export interface Reported {
   x_m: number;
   y_m: number;

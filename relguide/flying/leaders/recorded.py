@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from relguide.flying.tracks import RecordedTrack, TrackState
+from relguide.flying.tracks import RecordedTrack, TrackState, hermite
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.flight_records import Body
 from relguide.planning.wind import Wind
@@ -56,8 +56,7 @@ def steps_to(
         step: between rows [s].
     """
     u = np.linspace(0.0, 1.0, round(1.0 / step) + 1)
-    a, b, c = (1.0 - u) ** 2 * (1.0 + 2.0 * u), u * (1.0 - u) ** 2, u * u * (u - 1.0)
-    da, db, dc = 6.0 * u * (u - 1.0), (3.0 * u - 1.0) * (u - 1.0), u * (3.0 * u - 2.0)
+    a, b, c, da, db, dc = hermite(u)
     east0, north0 = now.tas * sin(now.heading) + wind.east, now.tas * cos(now.heading) + wind.north
     east1, north1 = then.ground_speed * sin(then.track), then.ground_speed * cos(then.track)
     east = da * (now.x - then.x) + db * east0 + dc * east1 - wind.east

@@ -42,7 +42,6 @@ from relguide.flying.orders import (
     LeaderData,
     LeaderHeading,
     LeaderLevel,
-    LeaderReport,
     LeaderSpeed,
     PursuerBank,
     PursuerHeading,
@@ -366,8 +365,8 @@ def _command(flight: LiveFlight, command: Command) -> None:
             _order(flight, LeaderSpeed(tas=tas, ident=ident))
         case LeaderLevelCommand(altitude_m=altitude, rate_mps=rate, ident=ident):
             _order(flight, LeaderLevel(altitude=altitude, rate=rate, ident=ident))
-        case LeaderReportCommand():
-            _order(flight, _leader_report(command))
+        case LeaderReportCommand(ident=ident):
+            _order(flight, command.order(ident))
         case IntentKnownCommand(known=known, ident=ident):
             _order(flight, IntentKnown(known=known, ident=ident))
         case LeaderDataCommand(received=received, ident=ident):
@@ -388,17 +387,6 @@ def _command(flight: LiveFlight, command: Command) -> None:
             _order(flight, SetDirector(on=on, ident=ident))
         case StickCommand(roll=roll, pitch=pitch, ident=ident):
             _move_stick(flight, Stick(roll=roll, pitch=pitch, ident=ident))
-
-
-def _leader_report(command: LeaderReportCommand) -> LeaderReport:
-    return LeaderReport(
-        x=command.x_m,
-        y=command.y_m,
-        track=heading_of(command.track_deg),
-        ground_speed=command.ground_speed_mps,
-        altitude=command.altitude_m,
-        ident=command.ident,
-    )
 
 
 def _order(flight: LiveFlight, order: Order) -> None:
