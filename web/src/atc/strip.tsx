@@ -209,7 +209,7 @@ function History({ card }: { card: ClearanceCard }) {
           <li key={`${each.state} ${k}`}>
             <span class="time">{timeText(card.sky, each.t_s)}</span>{" "}
             <b>{STATES[each.state].word}</b> <span class="unit">by {each.by}</span>{" "}
-            {reasonText(each.reason)} {each.message}
+            {each.reason === each.by ? "" : reasonText(each.reason)} {each.message}
           </li>
         ))}
       </ol>
