@@ -25,9 +25,9 @@ from tests.pages import ROOT, blocks, pages
 from tests.server.serving import serve
 
 DOCS = ROOT / "docs"
-SERVICE, COMMANDS, FLIGHT, NETWORK, ERRATA, MAP = (
+SERVICE, COMMANDS, FLIGHT, NETWORK, PAPER, MAP = (
     (DOCS / f"{name}.md").read_text()
-    for name in ("service", "commands", "flight", "network", "errata", "architecture")
+    for name in ("service", "commands", "flight", "network", "paper", "architecture")
 )
 
 
@@ -210,13 +210,34 @@ TESTED = ROOT / "web" / "test"
 """… without what npm installs."""
 
 
-def test_errata_name_tests_that_exist() -> None:
-    named = re.findall(r"`(\w+\.py)::(\w+)`", ERRATA)
-    assert len(named) == 13
-    for file, name in named:
-        found = list((ROOT / "tests").rglob(file))
-        assert found, file
-        assert any(f"def {name}(" in path.read_text() for path in found), f"{file}::{name}"
+PAPER_ROWS = [
+    [cell.strip() for cell in line.strip("|").split("|")]
+    for line in PAPER.splitlines()
+    if line.startswith(("| (", "| Fig", "| after", "| section", "| ε"))
+]
+
+
+def test_every_equation_and_figure_of_the_paper_has_a_row() -> None:
+    named = [name for row in PAPER_ROWS for name in row[0].split(", ")]
+    due = [f"({number})" for number in range(1, 25)]
+    due += [f"Fig. {number}" for number in ("1", "2", "3", "4", "5", "6a", "6b", "7")]
+    assert {name for name in named if name[0] in "(F"} == set(due)
+    assert len(named) == len(set(named))
+
+
+@pytest.mark.parametrize("row", PAPER_ROWS, ids=lambda row: row[0])
+def test_a_row_of_the_paper_names_code_and_tests_that_exist(row: list[str]) -> None:
+    what, code, corrected, test = row
+    assert corrected
+    file, name = re.fullmatch(r"`(relguide/[\w/]+\.py)::(\w+)`", code).groups()  # type: ignore[union-attr]
+    source = (ROOT / file).read_text()
+    assert re.search(rf"^(?:def|class) {name}\b", source, re.MULTILINE)
+    said = {int(number) for number in re.findall(r"\((\d{1,2})\)", source)}
+    for first, last in re.findall(r"\((\d+)\)–\((\d+)\)", source):
+        said.update(range(int(first), int(last)))
+    assert not what.startswith("(") or {int(n) for n in re.findall(r"\d+", what)} <= said
+    file, name = re.fullmatch(r"`(test_\w+\.py)::(test_\w+)`", test).groups()  # type: ignore[union-attr]
+    assert any(f"def {name}(" in found.read_text() for found in (ROOT / "tests").rglob(file))
 
 
 @pytest.mark.parametrize("figure", sorted(DOCS.rglob("*.svg")), ids=lambda figure: figure.name)

@@ -91,7 +91,7 @@ class Pursuer:
     tas: MetrePerSecond
     """True airspeed V_P, kept constant [m/s]."""
     max_bank: Radian
-    """φ_max, the bank its turns are flown at [rad]."""
+    """φ_max of eq. (4), the bank its turns are flown at [rad]."""
     altitude: Metre | None = None
     """Pressure altitude [m]; `None` as in `Leader`."""
     levels: tuple[LevelChange, ...] = ()

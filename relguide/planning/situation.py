@@ -43,7 +43,7 @@ def expect_others(name: str, value: object) -> tuple[Other, ...]:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Situation:
-    """Everything a plan depends on, at one instant (t = 0)."""
+    """Everything a plan depends on, at one instant (t = 0): the initial conditions, eq. (6)."""
 
     pursuer: Pursuer
     leader: Leader
