@@ -75,8 +75,8 @@ def block(folder: Path = RESULTS) -> str:
         (
             f"Without the limit:\n\n{markdown(*without)}",
             f"Where it binds:\n\n{markdown(BESIDE_IPOPT, _pairs(*read_table(WITH, folder)))}",
-            f"`plan_arrays()` plans {int(free):,} situations a second without the limit, and {bound} "
-            "where it binds.",
+            f"`plan_arrays()` plans {int(free):,} situations a second without the limit, and "
+            f"{bound} where it binds.",
         )
     )
 
