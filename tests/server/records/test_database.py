@@ -78,11 +78,10 @@ def value(column: sa.Column[Any], number: int) -> object:
 
 
 @pytest.mark.parametrize("revision", revisions())
-def test_older_tables_keep_all_that_is_in_them(url: str, revision: str) -> None:
-    engine = alembic_to(url, revision)
+def test_older_tables_keep_all_that_is_in_them(home: Home, revision: str) -> None:
+    engine = alembic_to(home.url, revision)
     filled = fill(engine)
     engine.dispose()
-    home = Home(url)
     store = home.store()
     with database.reading(store.engine) as connection:
         assert connection.scalar(sa.text("SELECT version_num FROM alembic_version")) == HEAD
@@ -92,14 +91,12 @@ def test_older_tables_keep_all_that_is_in_them(url: str, revision: str) -> None:
             found = connection.execute(sa.select(*columns)).mappings().all()
             key = next(iter(rows[0]))
             assert sorted(map(dict, found), key=itemgetter(key)) == rows
-    home.close()
 
 
-def test_what_the_first_version_kept_is_read(url: str) -> None:
-    engine = alembic_to(url, "0001")
+def test_what_the_first_version_kept_is_read(home: Home) -> None:
+    engine = alembic_to(home.url, "0001")
     fill(engine)
     engine.dispose()
-    home = Home(url)
     store = home.store()
     assert [row["id"] for row in find_flights(store, RecordSearch()).rows] == [
         "flights-2", "flights-1", "flights-0"
@@ -112,7 +109,6 @@ def test_what_the_first_version_kept_is_read(url: str) -> None:
     assert find_plans(store, RecordSearch()).rows == []
     assert remove_flight(store, "flights-1") == "flights-1"  # its outcome, as it was filled
     assert list(each_chunk(store, "flights-1")) == []
-    home.close()
 
 
 def test_the_tables_are_those_that_the_revisions_make(url: str) -> None:
