@@ -137,7 +137,7 @@ if typing.TYPE_CHECKING:
     from relguide.planning.wind import wind_from as wind_from
     from relguide.planning.words import candidates as candidates
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 _HOMES = {
     "record": "relguide.contract.recorder",
