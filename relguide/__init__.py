@@ -393,5 +393,5 @@ def __getattr__(name: str) -> typing.Any:
 
 
 def __dir__() -> list[str]:
-    """All public names, loaded or not."""
-    return sorted({*globals(), *_HOMES})
+    """All public names, loaded or not, and no module that has been imported meanwhile."""
+    return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

@@ -277,7 +277,8 @@ def _own(path: Path | None) -> "Scenario":
     try:
         return read_flight("-" if path is None else str(path))
     except ContractError as refused:
-        if path is None or path.suffix.lower() == ".json":
+        is_situation = {"pursuer", "leader"}.isdisjoint(field for field, _ in refused.problems)
+        if path is None or (path.suffix.lower() == ".json" and is_situation):
             raise
         raise ValueError(f"{refused} Flown are situations (.json) and {FORMS}.") from None
 
