@@ -29,7 +29,7 @@ def draw(step: Step) -> Drawn:
     sizes = [paper.weights[0].shape[0], *(len(bias) for bias in paper.biases)]
     features, branches = ours.layers.first.shape[0], len(BRANCHES)
     own = [features, *[ours.shape.width] * ours.shape.depth, ours.layers.last.shape[1]]
-    figure = empty_figure(11.0, 6.4)
+    figure = empty_figure(11.0, 5.6)
     rows = figure.add_gridspec(2, 2, width_ratios=[1.5, 1.0])
     left, below, right = (
         figure.add_subplot(place) for place in (rows[0, 0], rows[1, 0], rows[:, 1])
@@ -39,8 +39,8 @@ def draw(step: Step) -> Drawn:
     _network(left, sizes, "the paper's: situation → triplets", INPUTS, named, "tanh")
     _network(
         below, own, "ours: situation → which words to solve exactly",
-        [*["distances and angles"] * 2, *["margins from where"] * 2, *["branches change"] * 2],
-        ["score of", "each branch", "whether", "it exists", "its time", ""], "SiLU",
+        ["distances,\nangles", "margins from\nwhere branches\nchange"],
+        ["each branch:\nits score,", "whether\nit exists,", "its time"], "SiLU",
     )  # fmt: skip
     told = _audit(right)
     weights = sum(w.size for w in paper.weights) + sum(b.size for b in paper.biases)
@@ -85,7 +85,9 @@ def _network(
         what = "inputs" if k == 0 else "outputs" if ends else unit
         axes.text(k, -1.32, f"{size} {what}", ha="center", va="top", color=INK)
     for k, words, side in ((-0.16, inputs, "right"), (len(sizes) - 0.84, outputs, "left")):
-        heights = columns[0] if side == "right" else columns[-1]
+        all_units = columns[0] if side == "right" else columns[-1]
+        few = len(words) < len(all_units)
+        heights = np.linspace(0.65, -0.65, len(words)).tolist() if few else all_units
         for height, word in zip(heights, words, strict=True):
             axes.text(k, height, word, ha=side, va="center", fontsize=8)
     axes.set_xlim(-1.25, len(sizes) - 0.1)

@@ -44,11 +44,10 @@ def draw(ways: tuple[Way, ...], step: Step) -> Drawn:
         _, known, guidance, _ = way
         flights.append((way, flown(fig_6(intent_known=known), guidance=guidance)))
         step(0.9 / len(ways))
-    figure = empty_figure(11.0, 5.6)
-    cells = figure.add_gridspec(3, 2, width_ratios=[1.25, 1.0])
-    ground = figure.add_subplot(cells[:, 0])
-    _paths(ground, flights)
-    heading, separation, bank = (figure.add_subplot(cells[k, 1]) for k in range(3))
+    figure = empty_figure(11.0, 7.0)
+    cells = figure.add_gridspec(2, 3, height_ratios=[1.5, 1.0])
+    _paths(figure.add_subplot(cells[0, :]), flights)
+    heading, separation, bank = (figure.add_subplot(cells[1, k]) for k in range(3))
     for (_, _, _, look), flight in reversed(flights):
         course, until = flight.courses["PURSUER"], flight.result.join_time
         shown = flight.t <= until + 60.0
@@ -69,14 +68,21 @@ def draw(ways: tuple[Way, ...], step: Step) -> Drawn:
     )
     limit = fig_6(intent_known=True).situation.min_separation / NM
     separation.axhline(limit, color=INK, lw=0.9)
-    separation.text(10.0, limit + 0.5, "d_min", fontsize=8)
+    separation.text(10.0, limit - 0.4, "$d_{min}$", va="top")
     separation.set_ylim(0.0, None)
-    for axes, name in ((heading, "heading [°]"), (separation, "separation [NM]"), (bank, "bank [°]")):
-        axes.set_ylabel(name)
-        axes.axvline(LEADER_TURNS_AT, color=PALE, lw=0.8, ls=(0, (2, 2)))
-        axes.tick_params(labelbottom=axes is bank)
-    bank.set_xlabel("time [s]")
-    heading.set_title("filled mark: joined; dotted: the leader turns", fontweight="normal", fontsize=8)
+    for axes, name in (
+        (heading, "heading [°]"),
+        (separation, "separation [NM]"),
+        (bank, "bank, right positive [°]"),
+    ):
+        axes.set_title(name)
+        axes.set_xlabel("time [s]")
+        axes.axvline(LEADER_TURNS_AT, color=PALE, lw=0.9, ls=(0, (2, 2)))
+    bank.annotate(
+        "the leader\nturns", (LEADER_TURNS_AT, 0.0), (-8, 40), textcoords="offset points",
+        ha="right", fontsize=8, color=INK,
+        arrowprops={"arrowstyle": "-", "color": PALE, "lw": 0.8},
+    )  # fmt: skip
     return Drawn(figure, f"{_told(flights)} The leader turns at {LEADER_TURNS_AT:.0f} s.")
 
 
@@ -108,7 +114,9 @@ def _paths(axes: "Axes", flights: list[tuple[Way, Flown]]) -> None:
     for course, colour in ((own, flights[0][0][3].colour), (leader, INK)):
         axes.plot(course.x[every] / KM, course.y[every] / KM, ".", color=colour, ms=5)
         aircraft(axes, course.x[0] / KM, course.y[0] / KM, course.heading[0] / DEG, colour)
-    axes.legend(loc="lower left", title=f"dots every {DOT_EVERY // 60} min", title_fontsize=8)
+    axes.legend(
+        loc="upper right", title=f"dots every {DOT_EVERY // 60} min, marks: joined", title_fontsize=8
+    )
 
 
 def _told(flights: list[tuple[Way, Flown]]) -> str:
