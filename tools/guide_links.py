@@ -12,15 +12,14 @@ from markdown import Markdown
 from markdown.extensions import Extension
 from markdown.treeprocessors import Treeprocessor
 
-ROOT = Path(__file__).parents[1]
+DOCS = Path(__file__).parents[1] / "docs"
 
 
 class _Unlink(Treeprocessor):
     def run(self, root: Element) -> None:
         for link in root.iter("a"):
             climbs, path = re.fullmatch(r"((?:\.\./)*)([^#?]*).*", link.get("href", "")).groups()  # type: ignore[union-attr]
-            held = (ROOT / "docs" / path).exists()
-            if climbs and path and not held and (ROOT / path).exists():
+            if climbs and path and not (DOCS / path).exists():
                 link.tag = "span"
                 del link.attrib["href"]
 

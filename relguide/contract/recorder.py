@@ -42,7 +42,7 @@ def record(
     The file is opened when the first document is asked for, and complete once the last one has
     been taken; a name that ends in `.gz` compresses it.
 
-    Example:
+    Examples:
         >>> flown = rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0)
         >>> *_, end = rg.record(flown, "flight.jsonl")
         >>> end.kind

@@ -56,8 +56,9 @@ _TROPOPAUSE_PRESSURE: float = (
 class Air:
     """The air as it is, or as somebody believes it to be.
 
-    >>> rg.Air(wind=rg.wind_from(1.5, 20.0), gusts=1.5).gusts
-    1.5
+    Examples:
+        >>> rg.Air(wind=rg.wind_from(1.5, 20.0), gusts=1.5).gusts
+        1.5
     """
 
     wind: Wind = CALM

@@ -351,7 +351,7 @@ def known_airframes() -> tuple[str, ...]:
 def airframe(designator: str) -> Airframe:
     """A type that comes with the library.
 
-    Example:
+    Examples:
         >>> rg.airframe("A306").name
         'Airbus A300-600R'
 

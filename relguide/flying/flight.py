@@ -189,7 +189,7 @@ def fly(
 ) -> Iterator[Document]:
     """Fly a scenario and say what happens, in order of time.
 
-    Example:
+    Examples:
         >>> *_, end = rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0)
         >>> end.message
         'Joined, and followed for 120 s.'

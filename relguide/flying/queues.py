@@ -66,7 +66,7 @@ def queue_up(
 ) -> tuple[Link, ...]:
     """Links that put followers behind a leader, each behind the one before.
 
-    Example:
+    Examples:
         >>> links = rg.queue_up(("B", "C"), "A", slot_distance=10e3, min_separation=9e3)
         >>> [(link.pursuer, link.leader) for link in links]
         [('B', 'A'), ('C', 'B')]

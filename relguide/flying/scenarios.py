@@ -177,7 +177,7 @@ def scenario_behind(
 def scenario(name: str) -> Scenario:
     """The scenario of that name.
 
-    Example:
+    Examples:
         >>> rg.scenario("fig_6a").title
         "Fig. 6a: the leader's intent is unknown"
 
@@ -202,7 +202,7 @@ def own_scenario(
 ) -> Scenario:
     """A situation of one's own, flown by an A300 at the level nearest to FL310 where it can.
 
-    Example:
+    Examples:
         >>> rg.own_scenario(rg.scenario("fig_6b").situation).altitude  # [m]
         9449.0
 

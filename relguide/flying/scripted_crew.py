@@ -182,7 +182,7 @@ def with_crew(
 ) -> Iterator[Document]:
     """A flight in which a crew follows its script.
 
-    Example:
+    Examples:
         >>> from functools import partial
         >>> engage = rg.SetEngagement(engagement="engaged")
         >>> script = [rg.CrewOrder(command=engage, on="proposed", after=10.0)]

@@ -143,7 +143,7 @@ def isochrones(
 ) -> Isochrones:
     """Lines of equal time-to-converge, and regions of equal word.
 
-    Example:
+    Examples:
         >>> grid = rg.Grid(x=0.0, y=0.0, columns=9, rows=9)
         >>> lines = rg.isochrones(rg.scenario("fig_6b").situation, grid, levels=(600.0, 900.0))
 

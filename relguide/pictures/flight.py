@@ -17,9 +17,10 @@ if TYPE_CHECKING:
 class Flight:
     """The documents of a flight: `Flight(fly(scenario, plan))`, or `Flight(replay(file))`.
 
-    >>> flight = rg.Flight(rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0))
-    >>> round(flight.join_time)  # [s]
-    916
+    Examples:
+        >>> flight = rg.Flight(rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0))
+        >>> round(flight.join_time)  # [s]
+        916
     """
 
     documents: tuple[Document, ...]

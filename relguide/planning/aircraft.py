@@ -85,9 +85,10 @@ def expect_distance(name: str, value: object) -> Metre:
 class Pursuer:
     """The aircraft we guide, at t = 0.
 
-    >>> own = rg.Pursuer(x=-40e3, y=40e3, heading=1.5, tas=240.0, max_bank=0.4)
-    >>> round(own.turn_radius)  # [m]
-    13892
+    Examples:
+        >>> own = rg.Pursuer(x=-40e3, y=40e3, heading=1.5, tas=240.0, max_bank=0.4)
+        >>> round(own.turn_radius)  # [m]
+        13892
     """
 
     x: Metre
@@ -142,8 +143,9 @@ class Pursuer:
 class Leader:
     """The aircraft to be joined, at t = 0, with what it has declared it will do.
 
-    >>> rg.Leader(x=0.0, y=0.0, heading=1.5, tas=200.0, intent=(rg.FlyStraight(duration=60.0),))
-    Leader(x=0.0, y=0.0, heading=1.5, tas=200.0, intent=(FlyStraight(duration=60.0),))
+    Examples:
+        >>> rg.Leader(x=0.0, y=0.0, heading=1.5, tas=200.0, intent=(rg.FlyStraight(duration=60.0),))
+        Leader(x=0.0, y=0.0, heading=1.5, tas=200.0, intent=(FlyStraight(duration=60.0),))
     """
 
     x: Metre
@@ -206,8 +208,9 @@ class Leader:
 class Traffic:
     """Another aircraft at t = 0, with what it has declared it will do, to be kept clear of.
 
-    >>> rg.Traffic(ident="BAW12", x=0.0, y=-60e3, heading=0.8, tas=220.0, min_separation=9_260.0)
-    Traffic(ident='BAW12', x=0.0, y=-60000.0, heading=0.8, tas=220.0, min_separation=9260.0)
+    Examples:
+        >>> rg.Traffic(ident="BAW12", x=0.0, y=-60e3, heading=0.8, tas=220.0, min_separation=9e3)
+        Traffic(ident='BAW12', x=0.0, y=-60000.0, heading=0.8, tas=220.0, min_separation=9000.0)
     """
 
     ident: str

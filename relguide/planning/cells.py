@@ -62,7 +62,8 @@ class Polygon:
 class Cell:
     """A weather cell at all levels, to be kept out of.
 
-    >>> storm = rg.Cell(ident="CB1", shape=rg.Disc(x=60e3, y=20e3, radius=15e3), growth=1.0)
+    Examples:
+        >>> storm = rg.Cell(ident="CB1", shape=rg.Disc(x=60e3, y=20e3, radius=15e3), growth=1.0)
     """
 
     ident: str

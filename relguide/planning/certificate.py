@@ -89,7 +89,7 @@ def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
 
     It holds where d ≥ d_min is proved all along, eq. (5).
 
-    Example:
+    Examples:
         >>> best = rg.plan(rg.scenario("fig_6b").situation)
         >>> rg.certify(best.trajectory, best.situation).holds
         True

@@ -70,8 +70,9 @@ class FlyStraight:
 class TurnTo:
     """A piece of intent: turn at constant bank to a heading, the way round that `turn` says.
 
-    >>> rg.TurnTo.from_display(heading_deg=135, direction="right", bank_deg=20).turn == rg.RIGHT
-    True
+    Examples:
+        >>> rg.TurnTo.from_display(heading_deg=135, direction="right", bank_deg=20).turn == rg.RIGHT
+        True
     """
 
     heading: Radian
@@ -112,8 +113,9 @@ class ChangeLevel:
     It takes no time of its own: the pieces behind it are flown while the level changes. A later
     change takes the place of one that is not over.
 
-    >>> rg.ChangeLevel(to_altitude=9_000.0, rate=7.5)
-    ChangeLevel(to_altitude=9000.0, rate=7.5)
+    Examples:
+        >>> rg.ChangeLevel(to_altitude=9_000.0, rate=7.5)
+        ChangeLevel(to_altitude=9000.0, rate=7.5)
     """
 
     to_altitude: Metre

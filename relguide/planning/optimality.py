@@ -129,7 +129,7 @@ def check(
 ) -> OptimalityReport:
     """Check whether Pontryagin's conditions hold along a trajectory.
 
-    Example:
+    Examples:
         >>> best = rg.plan(rg.scenario("fig_6b").situation)
         >>> rg.check(best, best.situation).holds
         True

@@ -62,7 +62,7 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
     131,072 windows, and nothing beyond 12 hours is considered. The slowest case found takes some
     seconds: twenty turns, some of them at 1° of bank, and no path to the slot.
 
-    Example:
+    Examples:
         >>> rg.plan(rg.scenario("fig_6b").situation).word
         'SRSR'
 

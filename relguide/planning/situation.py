@@ -45,9 +45,10 @@ def expect_others(name: str, value: object) -> tuple[Other, ...]:
 class Situation:
     """Everything a plan depends on, at one instant (t = 0): the initial conditions, eq. (6).
 
-    >>> own = rg.Pursuer(x=-40e3, y=40e3, heading=1.5, tas=240.0, max_bank=0.4)
-    >>> leader = rg.Leader(x=0.0, y=0.0, heading=1.5, tas=200.0)
-    >>> asked = rg.Situation(pursuer=own, leader=leader, slot_distance=10e3, min_separation=9_260.0)
+    Examples:
+        >>> own = rg.Pursuer(x=-40e3, y=40e3, heading=1.5, tas=240.0, max_bank=0.4)
+        >>> leader = rg.Leader(x=0.0, y=0.0, heading=1.5, tas=200.0)
+        >>> asked = rg.Situation(pursuer=own, leader=leader, slot_distance=10e3, min_separation=9e3)
     """
 
     pursuer: Pursuer

@@ -44,8 +44,9 @@ Bend = tuple[Metre, float]
 class Arc:
     """A turn at constant bank.
 
-    >>> rg.Arc(turn=rg.LEFT, turn_angle=0.5, radius=9_000.0).length
-    4500.0
+    Examples:
+        >>> rg.Arc(turn=rg.LEFT, turn_angle=0.5, radius=9_000.0).length
+        4500.0
     """
 
     turn: Turn
@@ -109,9 +110,10 @@ class Trajectory:
 
     In wind the air mass moves: over the ground the same trajectory is displaced by wind × t.
 
-    >>> ahead = rg.Straight(length=2_000.0)
-    >>> rg.Trajectory(x=0.0, y=0.0, heading=0.0, tas=200.0, segments=(ahead,)).duration
-    10.0
+    Examples:
+        >>> ahead = rg.Straight(length=2_000.0)
+        >>> rg.Trajectory(x=0.0, y=0.0, heading=0.0, tas=200.0, segments=(ahead,)).duration
+        10.0
     """
 
     x: Metre

@@ -39,7 +39,7 @@ CALM = Wind()
 def wind_from(direction: float, speed: float) -> Wind:
     """The wind that blows *from* a direction, as reports give it.
 
-    Example:
+    Examples:
         >>> rg.wind_from(0.0, 20.0).north  # from the north
         -20.0
 

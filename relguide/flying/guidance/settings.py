@@ -34,7 +34,8 @@ FLAGS = ("always_ask",)
 class Settings:
     """How guidance plans, tracks, watches and speaks.
 
-    >>> fly_gently = rg.Settings(bank_in_hand=0.09)
+    Examples:
+        >>> fly_gently = rg.Settings(bank_in_hand=0.09)
     """
 
     bank_in_hand: Radian = 2.5 * DEG
