@@ -18,10 +18,9 @@ COPY . .
 RUN python -m venv /guide \
     && /guide/bin/pip install zensical==0.0.73 "mkdocstrings-python>=2.0.11,<2.1" \
     && /guide/bin/python -m zensical build --strict
-ENV RELGUIDE_GUIDE=/src/build/guide
 # It is this source tree that is installed, so there is no version to pin.
 # hadolint ignore=DL3013
-RUN pip install --no-deps .
+RUN RELGUIDE_GUIDE=build/guide pip install --no-deps .
 # The kernels are compiled beside what is installed, for any CPU of this kind: that costs no speed,
 # and the image may run elsewhere than it was built, as any user, with a read-only disk.
 WORKDIR /

@@ -30,7 +30,7 @@ class WebPageHook(BuildHookInterface[Any]):
             self._add_kernels(Path(kernels), build_data)
         guide = os.environ.get("RELGUIDE_GUIDE")
         if guide and version == "standard":
-            self._add_guide(Path(guide), build_data)
+            self._add_guide(Path(self.root) / guide, build_data)
         if os.environ.get("RELGUIDE_SKIP_WEB") == "1":
             self.app.display_warning("RELGUIDE_SKIP_WEB=1: the web page is left out.")
             return
