@@ -7,7 +7,7 @@ from relguide.figures.results import read_results
 from relguide.figures.style import BLUE, ORANGE, PALE, empty_figure
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    pass
 
 WITHOUT, WITH, MAKER = "without_limit.csv", "with_limit.csv", "make planner-figures"
 OURS = ("kernel", "plan()")
@@ -72,7 +72,10 @@ def draw(step: Step) -> Drawn:
     for axes in (left, right):
         axes.axhline(split, color=PALE, lw=0.8)
         axes.grid(visible=False, axis="y")
-    for y, words in ((0.75, "without the limit: by over 0.1 s"), (split - 0.42, "where d_min binds: by over 1 s")):
+    for y, words in (
+        (0.75, "without the limit: by over 0.1 s"),
+        (split - 0.42, "where d_min binds: by over 1 s"),
+    ):
         right.text(47.5, y, words, ha="right", va="center", fontsize=8, style="italic")
     right.set_ylim(min(heights.values()) - 0.7, 1.2)
     counts = {row["name"]: row["cases"] for row in read_results(WITH)}
@@ -84,14 +87,10 @@ def draw(step: Step) -> Drawn:
     )
 
 
-def _numbered(
-    part: list[Row], parts: tuple[list[Row], ...], k: int
-) -> "list[tuple[int, Row]]":
+def _numbered(part: list[Row], parts: tuple[list[Row], ...], k: int) -> "list[tuple[int, Row]]":
     """Rows with their number among all parts."""
     first = sum(len(one) for one in parts[:k])
     return list(enumerate(part, start=first))
 
 
-FIGURE = NamedFigure(
-    name="planners", title="Our planner against its peers", seconds=1.0, draw=draw
-)
+FIGURE = NamedFigure(name="planners", title="Our planner against its peers", seconds=1.0, draw=draw)

@@ -43,7 +43,9 @@ D, LEADER_TAS = 12_000.0, 200.0
 def situation() -> Situation:
     """The one that the trajectory is an answer to: its leader is where the slot must be, (19)."""
     flown = START.flying(
-        trajectory_from_regular(REGULAR, _behind(Leader(x=0.0, y=0.0, heading=0.0, tas=150.0))).segments
+        trajectory_from_regular(
+            REGULAR, _behind(Leader(x=0.0, y=0.0, heading=0.0, tas=150.0))
+        ).segments
     )
     end = flown.pose_at(flown.duration)
     back = LEADER_TAS * flown.duration - D
@@ -79,7 +81,9 @@ def draw(step: Step) -> Drawn:
             _turn(axes, number, REGULAR.triplets[number - 1], poses)
         else:
             _straight(axes, number, poses)
-    for number, begin in zip(range(len(REGULAR.triplets) + 1, 0, -1), (*starts[::2][:3], starts[-1]), strict=True):
+    for number, begin in zip(
+        range(len(REGULAR.triplets) + 1, 0, -1), (*starts[::2][:3], starts[-1]), strict=True
+    ):
         pose = flown.pose_at(float(begin))
         axes.plot(pose.x / KM, pose.y / KM, "o", color=INK, mfc="white", ms=11, zorder=7)
         axes.text(

@@ -58,6 +58,4 @@ def draw(step: Step, parameters: TreeParameters = PARAMETERS) -> Drawn:
     )
 
 
-FIGURE = NamedFigure(
-    name="fig_4", title="Fig. 4: the convergence area", seconds=30.0, draw=draw
-)
+FIGURE = NamedFigure(name="fig_4", title="Fig. 4: the convergence area", seconds=6.0, draw=draw)
