@@ -129,7 +129,7 @@ def _look(*, filled: bool) -> dict[str, Any]:
 
 
 def _hull(points: Any) -> Any:
-    """Convex hull of points, counter-clockwise. shape (n, 2)"""
+    """Convex hull of points, counter-clockwise. shape (n, 2)."""
     ordered = sorted(set(map(tuple, points.tolist())))
 
     def half(there: list[tuple[float, float]]) -> list[tuple[float, float]]:

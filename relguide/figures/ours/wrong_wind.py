@@ -101,7 +101,7 @@ def _paths(axes: "Axes", calm: Flown, strongest: dict[float, Flown]) -> None:
     axes.annotate(
         "pursuer; grey: in calm air",
         (start.x[0] / KM, start.y[0] / KM),
-        (0, 12),
+        (0, 26),
         textcoords="offset points",
     )
 

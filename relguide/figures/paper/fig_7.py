@@ -1,4 +1,4 @@
-"""Fig. 7: the navigation display at one instant of Fig. 6b, beside what section 6 asks it to show."""
+"""Fig. 7: the navigation display in Fig. 6b, beside what section 6 asks it to show."""
 
 from html import escape
 from math import cos, sin
