@@ -54,6 +54,10 @@ def draw(step: Step) -> Drawn:
         colour, face = (BLUE, BLUE) if ours else (ORANGE, "white")
         left.plot((row.median, row.late), (y, y), color=colour, lw=2.2, ls="-" if ours else "--")
         left.plot(row.median, y, "o" if ours else "s", color=colour, mfc=face, ms=6, zorder=5)
+        left.annotate(
+            time_in_words(row.median), (row.median, y), (-7, -3), textcoords="offset points",
+            ha="right", color=colour, fontsize=8,
+        )  # fmt: skip
         right.barh(
             y, row.wrong, height=0.55, color=face, edgecolor=colour, hatch="" if ours else "////",
             lw=0.8,
@@ -61,6 +65,7 @@ def draw(step: Step) -> Drawn:
         right.text(row.wrong + 0.8, y, f"{row.wrong:.0f} %", va="center", fontsize=8)
     left.set_yticks(list(heights.values()), [row.name for row in heights], fontsize=8)
     left.set_xscale("log")
+    left.set_xlim(4e-7, 60.0)
     ticks = {1e-6: "1 µs", 1e-4: "100 µs", 1e-2: "10 ms", 1.0: "1 s"}
     left.set_xticks(list(ticks), list(ticks.values()))
     left.set_xlabel("CPU time of an answer, median to 99 %")
@@ -85,6 +90,13 @@ def draw(step: Step) -> Drawn:
         f"{sum(int(n) for name, n in counts.items() if name.startswith(OURS))}; CPU seconds of one "
         f"machine. `{WITHOUT}` and `{WITH}`, made by `{MAKER}`.",
     )
+
+
+def time_in_words(seconds: float) -> str:
+    """A time with its unit, to two digits or so."""
+    size, unit = (1.0, "s") if seconds >= 1.0 else (1e-3, "ms") if seconds >= 1e-3 else (1e-6, "µs")
+    value = seconds / size
+    return f"{value:.0f} {unit}" if value >= 10.0 else f"{value:.1f} {unit}"
 
 
 def _numbered(part: list[Row], parts: tuple[list[Row], ...], k: int) -> "list[tuple[int, Row]]":
