@@ -21,6 +21,7 @@ from relguide.cli import (
     campaign_command,
     check_command,
     dataset_command,
+    figures_command,
     fly_command,
     picture_command,
     plan_command,
@@ -57,6 +58,7 @@ COMMANDS: dict[str, CommandFile] = {
     "train": train_command,
     "audit": audit_command,
     "area": area_command,
+    "figures": figures_command,
     "warm-up": warm_up_command,
 }
 
