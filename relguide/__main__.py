@@ -20,6 +20,7 @@ from relguide.cli import (
     audit_command,
     campaign_command,
     check_command,
+    claims_command,
     dataset_command,
     fly_command,
     picture_command,
@@ -57,6 +58,7 @@ COMMANDS: dict[str, CommandFile] = {
     "train": train_command,
     "audit": audit_command,
     "area": area_command,
+    "claims": claims_command,
     "warm-up": warm_up_command,
 }
 
