@@ -29,7 +29,7 @@ class Reading:
         where: what the cells of a row must match, by column, as regular expressions.
         column: the column that is read.
         take: what is made of several rows: `one` refuses them.
-        over: a column whose sum the sum is a share of [%].
+        over: what the number is a share of [%]: a path, or a column, both summed.
         divide_by: the number of metres, seconds … in the claim's unit.
     """
 

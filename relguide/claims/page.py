@@ -18,7 +18,8 @@ relguide claims NAME       # some of them
 The command prints of each claim what is expected and what it obtains. It ends with 1 if a number is
 out of its tolerance. *Obtained* is of the last run that was kept here. Some claims come from
 campaigns of hours or from another machine's load: their tables are kept in `benchmarks/results`,
-and `--all` checks that table and page agree. What writes tables and pages by itself does so here too.
+and `--all` checks that table and page agree. A command
+that writes tables and pages does so here too.
 """
 TITLES = {
     "quick": "Checked by `--quick`",
@@ -52,11 +53,9 @@ def claims_page(claims: Sequence[Claim], obtained: Mapping[str, float]) -> str:
 
 
 def number(value: float, like: Claim) -> str:
-    """A number as people read it: with as many digits as its claim needs."""
-    scale = like.tolerance or abs(like.expected) / 100.0
-    decimals = 0
-    while decimals < 4 and scale < 10.0 ** (-decimals) * 0.999 and value != int(value):
-        decimals += 1
+    """A number with as many decimals as its claim is told with."""
+    told = (like.expected, like.tolerance or 0.0, like.at_most or 0.0, like.at_least or 0.0)
+    decimals = max(len(f"{one:.10g}".partition(".")[2]) for one in told)
     return f"{value:,.{decimals}f}"
 
 

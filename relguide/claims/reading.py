@@ -26,7 +26,8 @@ def read_printed(reading: Reading, printed: str) -> float:
         ValueError: if it is not there, with what was looked for.
     """
     if reading.json:
-        return _in_json(printed, reading.json) / reading.divide_by
+        value = _in_json(printed, reading.json) / reading.divide_by
+        return 100.0 * value / _in_json(printed, reading.over) if reading.over else value
     return _in_text(printed, reading.pattern) / reading.divide_by
 
 
