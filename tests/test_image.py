@@ -23,11 +23,14 @@ from packaging.utils import canonicalize_name
 from relguide_server.app import create_app
 from relguide_server.http import health
 from relguide_server.jobs.worker_pool import PULSE
+from relguide_server.records.database import connect, url_of
+from relguide_server.records.entries import Unavailable
 from relguide_server.settings import ServiceSettings, read_peers
 
+from tests.server.records.places import HAS_POSTGRES, NO_POSTGRES, postgres
 from tests.server.serving import ideal_app, ideal_catalogue, serve
 from tests.server.test_service_life import wait_until
-from tools.container.composition import composition
+from tools.container.composition import PASSWORD, composition
 from tools.container.dockerfile import ROOT, copied, steps
 
 LOCK = (ROOT / "requirements.lock").read_text()
@@ -215,6 +218,27 @@ def test_the_base_may_be_given_to_every_stage() -> None:
         assert COMPOSE["services"][name]["build"]["args"]["BASE"] == default
 
 
+@pytest.mark.skipif(not HAS_POSTGRES, reason=NO_POSTGRES)
+def test_any_password_opens_the_database(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """What compose hands over, to a PostgreSQL that asks for it."""
+    given = COMPOSE["services"]["planner"]["environment"]
+    asked = COMPOSE["services"]["database"]["environment"]
+    assert given["PGPASSWORD"] == asked["POSTGRES_PASSWORD"] == PASSWORD
+    with postgres() as server:
+        server.ask_for_password(PASSWORD)
+        address = given["RELGUIDE_DATABASE_URL"].replace(
+            "@database/relguide", f"@127.0.0.1:{server.port}/postgres"
+        )
+        url = url_of(address, Path("unused"))
+        monkeypatch.delenv("PGPASSWORD", raising=False)
+        with pytest.raises(Unavailable, match="password"):
+            connect(url)
+        monkeypatch.setenv("PGPASSWORD", given["PGPASSWORD"])
+        connect(url).dispose()
+
+
 def test_compose_names_settings_that_exist_and_writes_nowhere() -> None:
     services = COMPOSE["services"]
     assert set(services) == {"database", *SERVED, "proxy"}
@@ -222,8 +246,10 @@ def test_compose_names_settings_that_exist_and_writes_nowhere() -> None:
     known = {f"RELGUIDE_{name.upper()}" for name in ServiceSettings.model_fields}
     for name in SERVED:
         assert services[name]["read_only"] is True
-        assert services[name]["mem_limit"]
-        assert set(services[name]["environment"]) <= known
+        assert set(services[name]["environment"]) <= known | {"PGPASSWORD"}
+    for service in services.values():
+        assert service["mem_limit"]
+        assert float(service["cpus"]) > 0
     for letter in "ab":
         given = services[f"flights-{letter}"]["environment"]
         assert given["RELGUIDE_PROCESS"] == letter

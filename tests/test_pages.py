@@ -230,4 +230,4 @@ def test_decisions_are_listed_and_short() -> None:
     listed = re.findall(r"\]\((\d{3}-[\w-]+\.md)\)", (folder / "README.md").read_text())
     assert listed == sorted(file.name for file in folder.glob("[0-9]*.md"))
     for name in listed:
-        assert len((folder / name).read_text().split()) <= 110, name
+        assert len((folder / name).read_text().split()) <= 90, name

@@ -1,8 +1,6 @@
 """`relguide area`: the convergence area of the paper's Fig. 4, from a tree and exactly."""
 
 import argparse
-from dataclasses import replace
-from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,8 +8,8 @@ from relguide.cli.output import DONE, add_form, for_people, write, write_json
 from relguide.cli.shared_options import add_tree, tree_parameters
 
 if TYPE_CHECKING:
-    from relguide.figures.area_figure import Column
-    from relguide.learn.tree.tree import RegularTree, TreeParameters
+    from relguide.learn.tree.tree import TreeParameters
+    from relguide.maps.area import Floats
 
 PURPOSE = "draw the convergence area, from a tree and exactly"
 EXAMPLES = """
@@ -46,8 +44,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(chosen: argparse.Namespace) -> int:
     """Draw a column for each heading."""
-    from relguide.cli.tree_growth import grow_tree
-    from relguide.figures.area_figure import check_figure, draw_areas
+    from relguide.cli.tree_growth import grow_tree, plan_places
+    from relguide.figures.area_figure import check_figure, column_of, draw_areas
     from relguide.learn.tree.tree_file import load_tree
     from relguide.units import DEG
 
@@ -60,7 +58,11 @@ def run(chosen: argparse.Namespace) -> int:
         parameters = tree_parameters(chosen)
         numbers = [_number(heading, parameters) for heading in headings]
         tree = grow_tree(parameters)
-    columns = [column_of(tree, number) for number in numbers]
+
+    def exact_from(x: "Floats", y: "Floats", heading: "Floats", title: str) -> "Floats":
+        return plan_places(tree.parameters, x, y, heading, title=title)
+
+    columns = [column_of(tree, number, exact_from) for number in numbers]
     draw_areas(columns, tree, chosen.figure)
     if for_people(chosen):
         write(f"{chosen.figure}: the convergence area on {len(columns)} headings.\n")
@@ -80,36 +82,3 @@ def _number(heading: float, parameters: "TreeParameters") -> int:
             f"{heading / DEG:g}° is not one of them."
         )
     return round(number) % parameters.headings
-
-
-def column_of(tree: "RegularTree", number: int) -> "Column":
-    """The tree's area for one heading, the exact one, and what the tree's path of each cell loses.
-
-    Args:
-        tree: the tree.
-        number: of the heading among the tree's.
-    """
-    import numpy as np
-
-    from relguide.cli.tree_growth import plan_places
-    from relguide.figures.area_figure import Column
-    from relguide.learn.tree.tree import nodes_at, tree_area
-    from relguide.maps.area import middles
-
-    shown = tree_area(tree, number)
-    places = middles(shown)
-    headings = np.full(places[0].shape, shown.heading)
-    exact = plan_places(tree.parameters, *places, headings, title="planning each cell")
-    exact[exact > tree.parameters.horizon] = inf
-    cells = nodes_at(tree, number)
-    nodes = np.unique(cells[cells >= 0])
-    own = plan_places(
-        tree.parameters, tree.x[nodes], tree.y[nodes], tree.heading[nodes], title="judging the tree"
-    )
-    lost = np.full(len(tree) + 1, inf)  # what has no node, −1, is the last
-    lost[nodes] = tree.time[nodes] - own
-    return Column(
-        tree=shown,
-        exact=replace(shown, time=exact.reshape(shown.time.shape)),
-        loss=replace(shown, time=lost[cells]),
-    )

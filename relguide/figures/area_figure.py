@@ -4,22 +4,24 @@ A column for each heading of the pursuer; above, the time-to-converge of the tre
 exact one on the same axes, and then what the tree's paths lose at the very states they begin from.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from math import cos, pi, sin
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from math import cos, inf, pi, sin
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from relguide.learn.tree.tree import RegularTree, TreeParameters
-from relguide.maps.area import Area
+from relguide.figures.style import DOTS, house_style
+from relguide.learn.tree.tree import RegularTree, TreeParameters, nodes_at, tree_area
+from relguide.maps.area import Area, Floats, middles
 from relguide.planning.extras import need
 from relguide.planning.phrases import whole_degrees
 from relguide.units import DEG
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 KM, MINUTE = 1000.0, 60.0
 FORMATS = (".svg", ".png", ".pdf")
@@ -55,6 +57,35 @@ def check_figure(file: Path) -> None:
     need("matplotlib")
 
 
+Exact = Callable[[Floats, Floats, Floats, str], Floats]
+"""Exact times [s] from places and headings relative to the slot; last, what they are for."""
+
+
+def column_of(tree: RegularTree, number: int, exact_from: Exact) -> Column:
+    """The tree's area for one heading, the exact one, and what the tree's path of each cell loses.
+
+    Args:
+        tree: the tree.
+        number: of the heading among the tree's.
+        exact_from: plans exactly.
+    """
+    shown = tree_area(tree, number)
+    places = middles(shown)
+    headings = np.full(places[0].shape, shown.heading)
+    exact = exact_from(*places, headings, "planning each cell")
+    exact[exact > tree.parameters.horizon] = inf
+    cells = nodes_at(tree, number)
+    nodes = np.unique(cells[cells >= 0])
+    own = exact_from(tree.x[nodes], tree.y[nodes], tree.heading[nodes], "judging the tree")
+    lost = np.full(len(tree) + 1, inf)  # what has no node, −1, is the last
+    lost[nodes] = tree.time[nodes] - own
+    return Column(
+        tree=shown,
+        exact=replace(shown, time=exact.reshape(shown.time.shape)),
+        loss=replace(shown, time=lost[cells]),
+    )
+
+
 def draw_areas(columns: Sequence[Column], tree: RegularTree, file: Path) -> None:
     """Draw the convergence area and write it.
 
@@ -63,47 +94,53 @@ def draw_areas(columns: Sequence[Column], tree: RegularTree, file: Path) -> None
         tree: what they are of.
         file: where to; its suffix says as what.
     """
-    from matplotlib import rc_context
+    # no date in it: the same data give the same file
+    metadata = {"Date": None} if file.suffix.lower() == ".svg" else None
+    with house_style():
+        areas_figure(columns, tree).savefig(file, dpi=DOTS, metadata=metadata)
+
+
+def areas_figure(columns: Sequence[Column], tree: RegularTree) -> "Figure":
+    """The convergence area as a figure.
+
+    Args:
+        columns: the headings shown, from left to right.
+        tree: what they are of.
+    """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     parameters = tree.parameters
-    # the same data give the same file, letters stay letters
-    with rc_context({"svg.hashsalt": "relguide", "svg.fonttype": "none", "font.size": 9}):
-        figure = Figure(figsize=(PANEL * len(columns) + 1.2, 3 * PANEL + 1.0), layout="constrained")
-        FigureCanvasAgg(figure)
-        figure.get_layout_engine().set(w_pad=0.06, h_pad=0.06)  # type: ignore[union-attr, call-arg]
-        figure.suptitle(
-            f"Convergence area: every place from where the slot is joined within "
-            f"{parameters.horizon / MINUTE:g} min\n\n",
-            color=INK,
-            fontsize=13,
-        )
-        figure.text(0.5, 0.965, _subtitle(tree), color=FAINT, ha="center", va="top")
-        grid = figure.subplots(3, len(columns), sharex=True, sharey=True, squeeze=False)
-        most = parameters.horizon / MINUTE
-        for axes, column in zip(grid.T, columns, strict=True):
-            axes[0].set_title(_heading(column.tree.heading), color=INK, fontsize=10)
-            times = [
-                _times(a, area, most) for a, area in zip(axes, _two_areas(column), strict=False)
-            ]
-            lost = _losses(axes[2], column.loss)
-            for a in axes:
-                _landmarks(a, parameters, column.tree.heading)
-        _crop(grid[0, 0], columns)
-        for a in grid[-1]:
-            a.set_xlabel("ahead of the slot [km]", color=INK)
-        for a, name in zip(
-            grid[:, 0], ("reverse dynamic programming", "exact", "lost by the tree"), strict=True
-        ):
-            a.set_ylabel(f"{name}\n\nleft of the leader's route [km]", color=INK)
-        bar = figure.colorbar(times[0], ax=list(grid[:2].flat), shrink=0.6, pad=0.015)
-        bar.set_label("time to converge [min]", color=INK)
-        bar = figure.colorbar(lost, ax=list(grid[2].flat), extend="max", shrink=0.9, pad=0.015)
-        bar.set_label("over the exact time [s]", color=INK)
-        # no date in it: the same data give the same file
-        metadata = {"Date": None} if file.suffix.lower() == ".svg" else None
-        figure.savefig(file, dpi=160, metadata=metadata)
+    figure = Figure(figsize=(PANEL * len(columns) + 1.2, 3 * PANEL + 1.0), layout="constrained")
+    FigureCanvasAgg(figure)
+    figure.get_layout_engine().set(w_pad=0.06, h_pad=0.06)  # type: ignore[union-attr, call-arg]
+    figure.suptitle(
+        f"Convergence area: every place from where the slot is joined within "
+        f"{parameters.horizon / MINUTE:g} min\n\n",
+        color=INK,
+        fontsize=13,
+    )
+    figure.text(0.5, 0.965, _subtitle(tree), color=FAINT, ha="center", va="top")
+    grid = figure.subplots(3, len(columns), sharex=True, sharey=True, squeeze=False)
+    most = parameters.horizon / MINUTE
+    for axes, column in zip(grid.T, columns, strict=True):
+        axes[0].set_title(_heading(column.tree.heading), fontsize=9, fontweight="normal")
+        times = [_times(a, area, most) for a, area in zip(axes, _two_areas(column), strict=False)]
+        lost = _losses(axes[2], column.loss)
+        for a in axes:
+            _landmarks(a, parameters, column.tree.heading)
+    _crop(grid[0, 0], columns)
+    for a in grid[-1]:
+        a.set_xlabel("ahead of the slot [km]", color=INK)
+    for a, name in zip(
+        grid[:, 0], ("reverse dynamic programming", "exact", "lost by the tree"), strict=True
+    ):
+        a.set_ylabel(f"{name}\n\nleft of the leader's route [km]", color=INK)
+    bar = figure.colorbar(times[0], ax=list(grid[:2].flat), shrink=0.6, pad=0.015)
+    bar.set_label("time to converge [min]", color=INK)
+    bar = figure.colorbar(lost, ax=list(grid[2].flat), extend="max", shrink=0.9, pad=0.015)
+    bar.set_label("over the exact time [s]", color=INK)
+    return figure
 
 
 def _subtitle(tree: RegularTree) -> str:

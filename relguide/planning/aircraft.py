@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from relguide.kernels.base.turn import turn_radius
-from relguide.planning.inputs import expect_within, text
+from relguide.planning.inputs import expect_within, number, text
 from relguide.planning.intent import (
     IntentPiece,
     LevelChange,
@@ -19,6 +19,7 @@ from relguide.planning.limits import (
     ALTITUDE,
     DISTANCE,
     HEADING,
+    KNOTS_MEANT,
     MOST_MILES,
     POSITION,
     TAS,
@@ -50,7 +51,9 @@ def _settle_aircraft(name: str, aircraft: "Pursuer | Leader | Traffic") -> None:
     settle(aircraft, "x", expect_within(f"{name}.x", aircraft.x, *POSITION))
     settle(aircraft, "y", expect_within(f"{name}.y", aircraft.y, *POSITION))
     settle(aircraft, "heading", expect_within(f"{name}.heading", aircraft.heading, *HEADING))
-    settle(aircraft, "tas", expect_within(f"{name}.tas", aircraft.tas, *TAS))
+    tas = number(f"{name}.tas", tas)
+    meant = KNOTS_MEANT if TAS.high < tas <= TAS.high / KT else ""
+    settle(aircraft, "tas", expect_within(f"{name}.tas", tas, TAS.low, TAS.high, TAS.unit, meant))
 
 
 def expect_ident(name: str, value: object) -> str:

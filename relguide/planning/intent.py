@@ -1,13 +1,21 @@
 """What an aircraft declares that it will fly: straights, turns, changes of level, in order."""
 
 from dataclasses import dataclass
-from math import fmod
+from math import fmod, pi
 from typing import Literal, assert_never
 
 from relguide.kernels.base.angles import TWO_PI, turn_to
 from relguide.kernels.base.turn import turn_radius
 from relguide.planning.inputs import expect_within, number, text, turn_sign
-from relguide.planning.limits import ALTITUDE, BANK, HEADING, MAX_PIECES, PIECE, VERTICAL_RATE
+from relguide.planning.limits import (
+    ALTITUDE,
+    BANK,
+    DEGREES_MEANT,
+    HEADING,
+    MAX_PIECES,
+    PIECE,
+    VERTICAL_RATE,
+)
 from relguide.planning.reprs import as_code
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Straight, Trajectory, Turn
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
@@ -38,7 +46,8 @@ def expect_bank(name: str, value: object) -> Radian:
         ValueError: for what is no number, or lies outside.
     """
     bank = number(name, value)
-    expect_within(name, bank / DEG, *BANK)
+    meant = DEGREES_MEANT if 0.5 * pi < bank <= BANK.high else ""
+    expect_within(name, bank / DEG, BANK.low, BANK.high, BANK.unit, meant)
     return bank
 
 

@@ -1,0 +1,1 @@
+"""Figures of what was measured beyond the paper, one file each."""
