@@ -92,7 +92,7 @@ def test_its_steps_work_in_an_empty_directory(tmp_path: Path) -> None:
                 shutil.copytree(
                     ROOT / "relguide/kernels/__pycache__", installed, dirs_exist_ok=True
                 )
-            case "RUN" if given == "relguide warm-up":
+            case "RUN" if given.startswith("relguide warm-up"):
                 pass  # minutes: the kernels of this machine were copied
             case "ENV":
                 pairs = re.findall(r"(\w+)=(\S+)", given)
@@ -219,7 +219,7 @@ def test_a_base_is_named_by_its_digest(base: str, pinned: bool, tmp_path: Path) 
 
 def test_the_base_may_be_given_to_every_stage() -> None:
     given = list(steps())
-    default = dict(given)["ARG"].removeprefix("BASE=")
+    default = given[0][1].removeprefix("BASE=")
     assert given[0] == ("ARG", f"BASE={default}")
     assert all(what.startswith("${BASE}") for name, what in given if name == "FROM")
     for name in SERVED:
