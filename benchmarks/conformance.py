@@ -2,7 +2,7 @@
 
 Flights drawn at random are flown, and watched against their forecast at engagement: what the
 monitor says of them is false. Deviations are put into them then; each is to be found within 10 s of
-leaving its threshold. The table goes to benchmarks/results/conformance.csv and into docs/atc.md.
+leaving its threshold. The table goes to benchmarks/results/conformance.csv.
 """
 
 import argparse
@@ -20,7 +20,6 @@ from rich.console import Console
 
 from benchmarks.deviations import INJECTIONS, Deviating, Watched
 from benchmarks.options import positive
-from benchmarks.page import DOCS, with_block
 from benchmarks.tables import Cells, markdown, write_table
 from relguide.atc.conformance import Memory, still_covers, watch
 from relguide.atc.picture import Seen
@@ -47,7 +46,7 @@ NOISE: Metre = 25.0
 TRACK_NOISE: Radian = 0.5 * DEG
 """… and of reported directions."""
 BATCH = 20
-NAME, PAGE, PART = "conformance.csv", DOCS / "atc.md", "conformance"
+NAME = "conformance.csv"
 EXACT, REPORTED = "calm, seen exactly", "calm, as reported"
 
 
@@ -81,7 +80,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--processes", type=positive, default=1)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--minutes", type=positive, default=600, help="no flight begins later")
-    parser.add_argument("--keep", action="store_true", help="write the table and the page")
+    parser.add_argument("--keep", action="store_true", help="write the table")
     asked = parser.parse_args(arguments)
     console = Console(stderr=True, soft_wrap=True, highlight=False, markup=False)
     until = monotonic() + 60.0 * asked.minutes
@@ -91,7 +90,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     shown = markdown(HEADINGS, cells)
     if asked.keep:
         write_table(NAME, HEADINGS, cells)
-        PAGE.write_text(with_block(PAGE.read_text("utf-8"), PART, shown), "utf-8")
     Console(soft_wrap=True, highlight=False, markup=False).print(shown)
     failed = [one for one in outcomes if one.failed]
     for one in failed:

@@ -3,7 +3,6 @@
 Half of the tries fly the scenarios, half random flights. A crew designates its leader, reads for 2
 to 20 s what is proposed before it accepts, and engages 2 to 30 s after that. A proposal that can no
 longer be flown as it was accepted is offered again, and read again. After ten minutes it gives up.
-The table stands in docs/commands.md.
 """
 
 import argparse
@@ -16,7 +15,6 @@ from statistics import median
 import numpy as np
 
 from benchmarks.options import positive
-from benchmarks.page import DOCS, with_block
 from benchmarks.tables import markdown
 from relguide.flying.documents import EngagementChanged
 from relguide.flying.flight import fly
@@ -28,7 +26,6 @@ from relguide.planning.progress import show_progress
 from relguide.units import Second
 
 PATIENCE: Second = 600.0
-PAGE, PART = DOCS / "commands.md", "crews"
 HEADINGS = ("", "tries", "engaged", "offered again", "refused", "after: median", "longest")
 
 
@@ -46,7 +43,7 @@ class Try:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Fly them all, and put the table into the page; 1 if one was not engaged."""
+    """Fly them all, and print the table; 1 if one was not engaged."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.crews", description=__doc__)
     parser.add_argument("--tries", type=positive, default=60)
     tries = parser.parse_args(arguments).tries
@@ -54,9 +51,7 @@ def main(arguments: list[str] | None = None) -> int:
         enumerate(fly_all(tries), 1), title="crews", total=tries, done=lambda one: one[0]
     )
     found = [one for _, one in done]
-    shown = markdown(HEADINGS, [_line(kind, found) for kind in ("scenarios", "random flights")])
-    PAGE.write_text(with_block(PAGE.read_text("utf-8"), PART, shown), "utf-8")
-    print(shown)  # noqa: T201
+    print(markdown(HEADINGS, [_line(kind, found) for kind in ("scenarios", "random flights")]))  # noqa: T201
     return 1 if any(one.engaged is None for one in found) else 0
 
 

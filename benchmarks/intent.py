@@ -138,10 +138,7 @@ def _cells(outcome: Outcome) -> list[str]:
     ]
 
 
-SHOWN = (
-    "", "later than with intent: mean", "most", "sooner in", "swing, most", "reversals, most",
-    "least, d_min",
-)  # fmt: skip
+SHOWN = "", "later than with intent: mean", "most", "swing, most", "least, d_min"
 """Of the table in the page."""
 
 
@@ -155,14 +152,11 @@ def summary(outcomes: Sequence[Outcome]) -> Cells:
 
 def _line(way: Way, flown: Sequence[Outcome], known: dict[Second, Second]) -> list[str]:
     later = [one.join_time / known[one.turns_at] - 1.0 for one in flown if one.joined]
-    sooner = sum(share < 0.0 for share in later)
     return [
         way.name,
         "–" if way.intent_known else f"{100.0 * mean(later):.1f} %",
         "–" if way.intent_known else f"{100.0 * max(later):.1f} %",
-        "–" if way.intent_known else f"{sooner} of {len(later)}",
         f"{max(one.swing for one in flown) / DEG:.0f}°",
-        f"{max(one.reversals for one in flown)}",
         f"{min(one.least_share for one in flown):.3f}",
     ]
 

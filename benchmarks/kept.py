@@ -13,7 +13,7 @@ from benchmarks import drawings
 from benchmarks.cases import limited_cases
 from benchmarks.page import FOLDER, GALLERY, PAGE, PICTURE, RESULTS, with_block
 from benchmarks.sweep import sweep
-from benchmarks.tables import markdown, read_table
+from benchmarks.tables import Cells, columns, markdown, read_table
 from relguide.figures.drawn import as_svg, draw
 from relguide.figures.ours import planners, separation
 
@@ -46,9 +46,34 @@ def draw_example(file: Path) -> None:
 
 
 def block(folder: Path = RESULTS) -> str:
-    """The tables that were kept, in Markdown."""
-    told = ((WITHOUT, "Without the limit:"), (WITH, "Where it binds:"), (BATCHES, "In batches:"))
-    return "\n\n".join(f"{title}\n\n{markdown(*read_table(name, folder))}" for name, title in told)
+    """What was kept, as a reader needs it."""
+    without = columns(*read_table(WITHOUT, folder), ("name", "cases", "median µs", OFF, "worst s"))
+    (_, _, free, _), (_, _, bound, _) = read_table(BATCHES, folder)[1]
+    return "\n\n".join(
+        (
+            f"Without the limit:\n\n{markdown(*without)}",
+            f"Where it binds:\n\n{markdown(BESIDE_IPOPT, _pairs(*read_table(WITH, folder)))}",
+            f"`plan_arrays()` plans {int(free):,} situations a second without the limit, and "
+            f"{bound} where it binds.",
+        )
+    )
+
+
+OFF = "off by > 0.1 s"
+BESIDE_IPOPT = (
+    "", "cases", "plan(), ms", "99 % ms", "later", "IPOPT, ms", "later", "none",
+)  # fmt: skip
+"""Headings of the table where the limit binds."""
+
+
+def _pairs(headings: list[str], cells: Cells) -> Cells:
+    """A line for each kind of situation, our row and that of IPOPT side by side."""
+    _, ours = columns(headings, cells[::2], ("name", "cases", "median ms", "99 % ms", "later"))
+    _, theirs = columns(headings, cells[1::2], ("median ms", "later", "none"))
+    return [
+        [name.removeprefix("plan(), "), *line, *beside]
+        for (name, *line), beside in zip(ours, theirs, strict=True)
+    ]
 
 
 if __name__ == "__main__":

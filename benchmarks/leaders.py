@@ -1,7 +1,7 @@
 """Flying behind every recorded leader of the Paris data: `python -m benchmarks.leaders`.
 
 Each is found by its name, as `relguide fly quickstart:NAME` finds it, and flown as that does. What
-became of each goes to benchmarks/results/leaders.csv, and how many joined into docs/flight.md.
+became of each goes to benchmarks/results/leaders.csv; how many joined is printed.
 """
 
 import argparse
@@ -12,7 +12,6 @@ from concurrent.futures import ProcessPoolExecutor
 from os import cpu_count
 
 from benchmarks.options import positive
-from benchmarks.page import DOCS, with_block
 from benchmarks.tables import markdown, write_table
 from relguide import plan
 from relguide.campaign import recordings
@@ -23,8 +22,6 @@ from relguide.planning.progress import show_progress
 from relguide.units import NM
 
 NAME = "leaders.csv"
-PAGE = DOCS / "flight.md"
-PART = "leaders"
 HEADINGS = ("leader", "seconds", "joined, s", "least, NM", "losses", "said last")
 LAST = "the recording ends"
 """What became of a flight that neither joined nor was unable."""
@@ -44,7 +41,6 @@ def main(arguments: list[str] | None = None) -> int:
             *([outcome, f"{count}"] for outcome, count in counted.most_common()),
         ],
     )
-    PAGE.write_text(with_block(PAGE.read_text("utf-8"), PART, shown), "utf-8")
     print(shown)  # noqa: T201
     return 0
 

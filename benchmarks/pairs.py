@@ -4,7 +4,7 @@ Each pair of consecutive arrivals of the Paris data is flown from when both are 
 it was recorded, its intent unknown; the pursuer from the follower's own place, track and speed. D
 is their real distance when the follower was established for good on the leader's final line, and
 d_min 3 NM, or less where they were closer. What became of it goes to
-benchmarks/results/real_pairs.csv, and its figures into docs/flight.md.
+benchmarks/results/real_pairs.csv; its figures are printed.
 """
 
 import argparse
@@ -20,7 +20,6 @@ import numpy as np
 
 from benchmarks.arrivals import Pair, pairs
 from benchmarks.options import positive
-from benchmarks.page import DOCS, with_block
 from benchmarks.tables import Cells, markdown, write_table
 from relguide import plan
 from relguide.flying.air import STANDARD_AIR
@@ -40,8 +39,6 @@ LIMIT: Metre = 3.0 * NM
 KEPT = 0.98
 """… or this share of what the real pair kept, where that is less."""
 NAME = "real_pairs.csv"
-PAGE = DOCS / "flight.md"
-PART = "pairs"
 HEADINGS = (
     "leader", "follower", "interval, s", "D, NM", "d_min, NM", "level",
     "real: established, s", "real: track, NM", "real: least, NM",
@@ -77,15 +74,13 @@ class Outcome:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Fly them all, keep the table, and show its figures."""
+    """Fly them all, keep the table, and print its figures."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pairs", description=__doc__)
     parser.add_argument("--processes", type=positive, default=cpu_count() or 1)
     outcomes = list(fly_pairs(parser.parse_args(arguments).processes))
     outcomes.sort(key=lambda outcome: (outcome.pair.leader.start, outcome.pair.leader.ident))
     write_table(NAME, HEADINGS, [_cells(outcome) for outcome in outcomes])
-    shown = markdown(SHOWN, _figures(outcomes))
-    PAGE.write_text(with_block(PAGE.read_text("utf-8"), PART, shown), "utf-8")
-    print(shown)  # noqa: T201
+    print(markdown(SHOWN, _figures(outcomes)))  # noqa: T201
     return 0
 
 
@@ -211,7 +206,7 @@ def _cells(outcome: Outcome) -> list[str]:
 
 
 SHOWN = ("", "pairs", "real, s", "ours, s", "real, NM", "ours, NM")
-"""Of the table in the page: medians."""
+"""Of the table that is printed: medians."""
 
 
 def _figures(outcomes: list[Outcome]) -> Cells:

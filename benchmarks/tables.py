@@ -25,6 +25,12 @@ def read_table(name: str, folder: Path = RESULTS) -> tuple[list[str], Cells]:
     return headings, cells
 
 
+def columns(headings: Sequence[str], cells: Cells, names: Sequence[str]) -> tuple[list[str], Cells]:
+    """A table with only these of its columns."""
+    kept = [headings.index(name) for name in names]
+    return list(names), [[line[i] for i in kept] for line in cells]
+
+
 def markdown(headings: Sequence[str], cells: Cells) -> str:
     """A table for a page: names on the left, numbers on the right."""
     sides = ["---", *("---:" for _ in headings[1:])]

@@ -76,7 +76,11 @@ if typing.TYPE_CHECKING:
     from relguide.flying.scripted_crew import ScriptedCrew as ScriptedCrew
     from relguide.flying.scripted_crew import with_crew as with_crew
     from relguide.flying.simulation import simulate as simulate
+    from relguide.flying.surveillance import Surveillance as Surveillance
     from relguide.flying.tracks import RecordedTrack as RecordedTrack
+    from relguide.flying.wind_grib import load_grib as load_grib
+    from relguide.flying.wind_profile import WindProfile as WindProfile
+    from relguide.flying.wind_profile import load_profile as load_profile
     from relguide.flying.world import Aircraft as Aircraft
     from relguide.flying.world import Declared as Declared
     from relguide.flying.world import Guided as Guided
@@ -133,7 +137,7 @@ if typing.TYPE_CHECKING:
     from relguide.planning.wind import wind_from as wind_from
     from relguide.planning.words import candidates as candidates
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 _HOMES = {
     "record": "relguide.contract.recorder",
@@ -238,6 +242,10 @@ _HOMES = {
     "Situation": "relguide.planning.situation",
     "TurnTo": "relguide.planning.intent",
     "Wind": "relguide.planning.wind",
+    "Surveillance": "relguide.flying.surveillance",
+    "WindProfile": "relguide.flying.wind_profile",
+    "load_grib": "relguide.flying.wind_grib",
+    "load_profile": "relguide.flying.wind_profile",
     "wind_from": "relguide.planning.wind",
     "Arc": "relguide.planning.trajectory",
     "BoundaryArc": "relguide.planning.trajectory",
@@ -331,6 +339,7 @@ __all__ = [
     "Situations",
     "Stick",
     "Straight",
+    "Surveillance",
     "TimeRow",
     "Times",
     "Traffic",
@@ -338,6 +347,7 @@ __all__ = [
     "TurnTo",
     "Unable",
     "Wind",
+    "WindProfile",
     "World",
     "airframe",
     "alternatives",
@@ -347,6 +357,8 @@ __all__ = [
     "fly",
     "isochrones",
     "load_airframe",
+    "load_grib",
+    "load_profile",
     "load_settings",
     "load_track",
     "own_scenario",
@@ -381,5 +393,5 @@ def __getattr__(name: str) -> typing.Any:
 
 
 def __dir__() -> list[str]:
-    """All public names, loaded or not."""
-    return sorted({*globals(), *_HOMES})
+    """All public names, loaded or not, and no module that has been imported meanwhile."""
+    return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

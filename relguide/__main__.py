@@ -20,6 +20,7 @@ from relguide.cli import (
     audit_command,
     campaign_command,
     check_command,
+    claims_command,
     dataset_command,
     figures_command,
     fly_command,
@@ -59,6 +60,7 @@ COMMANDS: dict[str, CommandFile] = {
     "audit": audit_command,
     "area": area_command,
     "figures": figures_command,
+    "claims": claims_command,
     "warm-up": warm_up_command,
 }
 

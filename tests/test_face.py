@@ -17,6 +17,12 @@ def test_all_is_sorted_and_complete() -> None:
     assert relguide.__all__ == sorted(relguide.__all__, key=_kind)
 
 
+def test_dir_shows_public_names_alone() -> None:
+    """Whatever has been imported meanwhile."""
+    assert relguide.units
+    assert {name for name in dir(relguide) if not name.startswith("__")} == {*relguide.__all__}
+
+
 def test_import_is_light() -> None:
     heavy = (
         "torch", "pydantic", "orjson", "fastapi", "viser", "uvicorn", "relguide_server",

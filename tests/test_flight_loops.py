@@ -11,7 +11,7 @@ import pytest
 from control import StateSpace
 
 from benchmarks.page import with_block
-from benchmarks.tables import markdown, read_table
+from benchmarks.tables import read_table
 from relguide.flying.airframe import Airframe
 from relguide.flying.guidance.settings import DEFAULT, Settings, load_settings
 from relguide.kernels.base.turn import turn_rate
@@ -163,14 +163,26 @@ def test_the_page_has_its_blocks_and_pictures() -> None:
     for name in (AUTOPILOT, PATH, CAMPAIGN):
         assert f"]({FOLDER.name}/{name})" in page
         assert "</svg>" in (FOLDER / name).read_text()
-    for name, file in SHOWN.items():
-        assert with_block(page, name, markdown(*read_table(file))) == page
+    for name in SHOWN:
+        assert with_block(page, name, report.table(name)) == page
     with pytest.raises(ValueError, match="once each"):
         with_block(page, "no such block", "")
 
 
+def test_the_page_tells_the_least_margins_of_all_loops() -> None:
+    told = re.search(
+        r"least (\d+)° of phase and × ([\d.]+) of gain, and bears ([\d.]+) s",
+        " ".join(PAGE.read_text().split()),
+    )
+    found = [margins(loop(model)) for loop in LOOPS.values() for model in report.MODELS]
+    assert told is not None
+    assert float(told[1]) == round(min(one.phase for one in found))
+    assert float(told[2]) == round(min(one.gain for one in found), 1)
+    assert float(told[3]) == round(min(one.delay for one in found), 1)
+
+
 def test_what_is_kept_is_what_is_computed() -> None:
-    assert read_table(SHOWN["margins"])[1] == report.margins_cells()
+    assert read_table(report.MARGINS_FILE)[1] == report.margins_cells()
     assert read_table("loop_gains.csv")[1] == report.gains_cells()
 
 

@@ -9,6 +9,7 @@ from typing import Literal
 
 from relguide.atc.clearances import OVER, Actor, State, refusal
 from relguide.atc.documents import Deviation, ReasonCode, StateChange, ValidationCard
+from relguide.atc.phraseology import clearance_text
 from relguide.atc.request import Manoeuvre
 from relguide.atc.settings import AtcSettings
 from relguide.units import Second
@@ -140,8 +141,8 @@ def answer(
     if to == "unable" and not why:
         why = "controller"
     due = {"accepted": now + settings.valid_for, "standby": now + settings.standby_within}
-    said = message or _ANSWERED[to]
-    return _step(clearance, to, by, why, said, now, at, due=due.get(to, 0.0))
+    words = clearance_text(clearance.request) if to == "accepted" else to.upper()
+    return _step(clearance, to, by, why, message or words, now, at, due=due.get(to, 0.0))
 
 
 def answer_as_advised(
@@ -387,11 +388,6 @@ def _findings(validation: ValidationCard) -> tuple[ReasonCode, str]:
     return first.reason, " ".join(found.message for found in validation.findings)
 
 
-_ANSWERED: dict[Answer, str] = {
-    "accepted": "CLEARED AS REQUESTED",
-    "unable": "UNABLE",
-    "standby": "STANDBY",
-}
 _WITHDRAWN: dict[Reply, str] = {
     "UNABLE": "The crew is unable to comply.",
     "CANCEL": "The crew has withdrawn its request.",

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from relguide.atc.documents import ReasonCode
 from relguide.atc.request import Manoeuvre, SpacingType
-from relguide.units import NM, Second
+from relguide.units import NM
 
 WILCO = "WILCO"
 STANDBY = "STANDBY"
@@ -41,12 +41,6 @@ def request_text(manoeuvre: Manoeuvre) -> str:
 def clearance_text(manoeuvre: Manoeuvre) -> str:
     """What a controller clears: `CLEARED CAPTURE AND MAINTAIN 5.0 NM BEHIND BAW12`."""
     return f"CLEARED {_words(manoeuvre)}"
-
-
-def expect_text(manoeuvre: Manoeuvre, delay: Second) -> str:
-    """What is promised for later: `EXPECT CAPTURE AND MAINTAIN … IN 2 MIN`; seconds below 90 s."""
-    later = f"{delay / 60.0:.0f} MIN" if delay >= 90.0 else f"{delay:.0f} SEC"
-    return f"EXPECT {_words(manoeuvre)} IN {later}"
 
 
 def unable_text(reason: ReasonCode, idents: Sequence[str] = ()) -> str:

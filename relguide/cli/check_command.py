@@ -12,10 +12,11 @@ if TYPE_CHECKING:
 
 PURPOSE = "judge a regular trajectory, given as the paper's triplets (ε, θ, l)"
 EXAMPLES = """
-    relguide check situation.json triplets.json          what holds of it; JSON off a terminal
-    relguide check situation.json triplets.json --json   JSON wherever it goes
-    relguide check situation.json --figure plan.svg      the fastest plan's own, drawn
+    relguide check straight.json triplets.json           what holds of it; JSON off a terminal
+    relguide check straight.json triplets.json --json    JSON wherever it goes
+    relguide check straight.json --figure plan.svg       the fastest plan's own, drawn
 
+    The leader must keep straight: one whose intent turns is refused.
     Triplets are numbered backward from the slot, the one flown last comes first:
     {"triplets": [{"epsilon": 1, "theta_deg": 3.2, "l_m": 0},
                   {"epsilon": -1, "theta_deg": 43.4, "l_m": 267000}]}

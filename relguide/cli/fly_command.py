@@ -34,6 +34,7 @@ EXAMPLES = """
     relguide fly random --seed 7                 a flight drawn from that number
     relguide fly fig_6b --spacing 60             once joined, a minute behind
     relguide fly fig_6b --gusts 1.5              in light turbulence
+    relguide fly fig_6b --winds winds.csv        in a wind that changes with altitude
     relguide fly fig_6a --guidance trail         by a baseline, which does not plan
     relguide fly fig_6b --orders orders.jsonl    the leader does as it is ordered, a line an order:
         {"t_s": 60, "intent_known": false}
@@ -117,6 +118,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--gusts", metavar="MPS", type=_gusts, help="σ of gusts [m/s]; 1.5 is light turbulence"
     )
     parser.add_argument(
+        "--winds",
+        metavar="FILE",
+        help="winds by altitude, a CSV file: altitude_m, altitude_ft or flight_level, and from_deg "
+        "with speed_mps or speed_kt, or u_mps and v_mps",
+    )
+    parser.add_argument(
         "--settings", metavar="FILE", help="constants of guidance, a TOML table [guidance]"
     )
     parser.add_argument(
@@ -154,6 +161,8 @@ def run(chosen: argparse.Namespace) -> int:
         scenario = replace(scenario, spacing=chosen.spacing)
     if chosen.gusts is not None:
         scenario = replace(scenario, gusts=chosen.gusts)
+    if chosen.winds is not None:
+        scenario = _in_winds(scenario, chosen.winds)
     if chosen.director:
         scenario = replace(scenario, by_hand=PilotModel())
     expect_flying(orders, script, world_of(scenario))
@@ -268,7 +277,8 @@ def _own(path: Path | None) -> "Scenario":
     try:
         return read_flight("-" if path is None else str(path))
     except ContractError as refused:
-        if path is None or path.suffix.lower() == ".json":
+        is_situation = {"pursuer", "leader"}.isdisjoint(field for field, _ in refused.problems)
+        if path is None or (path.suffix.lower() == ".json" and is_situation):
             raise
         raise ValueError(f"{refused} Flown are situations (.json) and {FORMS}.") from None
 
@@ -297,6 +307,16 @@ def _following(text: str) -> float:
 
 def _spacing(text: str) -> float:
     return seconds(text, 1.0, SPACING.high)
+
+
+def _in_winds(scenario: "Scenario", file: str) -> "Scenario":
+    """A scenario in the winds of a file, in place of the one wind of its situation."""
+    from relguide.flying.wind_profile import load_profile
+    from relguide.planning.wind import CALM
+
+    return replace(
+        scenario, situation=replace(scenario.situation, wind=CALM), profile=load_profile(file)
+    )
 
 
 def _gusts(text: str) -> float:

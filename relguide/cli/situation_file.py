@@ -6,8 +6,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
+from relguide.cli.output import say
+from relguide.units import NM
+
 if TYPE_CHECKING:
-    from relguide.contract.bodies import NamedSituationBody
+    from relguide.contract.bodies import NamedSituationBody, SituationBody
     from relguide.contract.places import Anchor
     from relguide.flying.flight import Scenario
     from relguide.planning.situation import Situation
@@ -41,7 +44,10 @@ def read_situation(file: str) -> tuple["Situation", "Anchor", "NamedSituationBod
     from relguide.contract.refusal import parse
 
     with open_input(file) as stream:
-        body = parse(NamedSituationBody, stream.read())
+        content = stream.read()
+    _refuse_lines(content, file)
+    body = parse(NamedSituationBody, content)
+    _ask_about_miles(body)
     return *situation_from_body(body), body
 
 
@@ -58,5 +64,27 @@ def read_flight(file: str) -> "Scenario":
     from relguide.contract.refusal import parse
 
     with open_input(file) as stream:
-        body = parse(FlownSituationBody, stream.read())
+        content = stream.read()
+    _refuse_lines(content, file)
+    body = parse(FlownSituationBody, content)
+    _ask_about_miles(body)
     return scenario_from_body(body)[0]
+
+
+def _refuse_lines(content: bytes, file: str) -> None:
+    """Refuse a file of several situations, each of which is JSON by itself."""
+    lines = content.split(b"\n", 2)
+    if len(lines) > 1 and all(line.strip()[:1] + line.strip()[-1:] == b"{}" for line in lines[:2]):
+        raise ValueError(
+            f"{file} has a situation a line: relguide plan --batch plans them all; here, give one."
+        )
+
+
+def _ask_about_miles(body: "SituationBody") -> None:
+    """Say which distances are as few metres as they would be nautical miles."""
+    from relguide.planning.limits import MOST_MILES
+
+    for name in ("slot_distance_m", "min_separation_m"):
+        distance: float = getattr(body, name)
+        if 0.0 < distance <= MOST_MILES:
+            say(f"{name} is {distance:g} m. If {distance:g} NM are meant: {distance * NM:g}.")

@@ -39,7 +39,7 @@ class AsyncClient:
         self, url: str = "http://127.0.0.1:8000", *, token: str = "", timeout: Second = 60.0
     ) -> None:
         """As `Client`."""
-        self._url = f"{url.rstrip('/')}/"
+        self._url = calls.base_url(url)
         self._headers = {"Authorization": f"Bearer {token}"} if token else {}
         self._http = httpx2.AsyncClient(base_url=self._url, headers=self._headers, timeout=timeout)
 

@@ -269,6 +269,20 @@ def documents_of(text: str | bytes) -> tuple[list[Document], bool]:
     return [from_wire(document, extra="ignore") for document in known], tick["ended"]
 
 
+def base_url(url: str) -> str:
+    """Where a service is, with a slash at the end.
+
+    Raises:
+        ValueError: for what is no such address.
+    """
+    base = url.rstrip("/")
+    if not base.startswith(("http://", "https://")):
+        raise ValueError(f"url must begin with http:// or https://, not be {url!r}.")
+    if base.endswith("/api/v1"):
+        raise ValueError(f"url must be where the service is, without /api/v1, not {url!r}.")
+    return f"{base}/"
+
+
 def stream_url(base: str, flight_id: str) -> str:
     """Where a flight is watched.
 

@@ -50,7 +50,7 @@ class Client:
             token: that shows what this program may do; none by default.
             timeout: how long to wait for an answer [s].
         """
-        self._url = f"{url.rstrip('/')}/"
+        self._url = calls.base_url(url)
         self._headers = {"Authorization": f"Bearer {token}"} if token else {}
         self._http = httpx2.Client(base_url=self._url, headers=self._headers, timeout=timeout)
 

@@ -19,7 +19,8 @@ MAX_QUOTED = 40
 FLOWN_ONLY = ("air", "believed_air", "surveillance")
 """Fields of situations that are flown, which plans do not have."""
 MEANT = 0.7
-"""How much an unknown field is like the one that is meant, from 0 to 1."""
+"""How much an unknown field is like the one that is meant, from 0 to 1. A word of its name, as `x`
+of `x_m`, or another unit, as in `tas_kt`, will do as well."""
 TAG = "#"
 """First character of the tags of `Discriminator`s, which distinguishes them from field names."""
 
@@ -255,8 +256,15 @@ def _say_meant(error: Any, missing: Sequence[tuple[Any, ...]]) -> str:
             "no plan depends on it."
         )
     beside = [str(last) for *place, last in missing if place == where]
-    meant = get_close_matches(str(name)[:MAX_QUOTED], beside, 1, MEANT)
+    meant = get_close_matches(str(name)[:MAX_QUOTED], beside, 1, MEANT) or [
+        one for one in beside if {str(name), _stem(str(name))} & {_stem(one), *one.split("_")}
+    ]
     return f"is not a field of the contract: did you mean {meant[0]}?" if meant else ""
+
+
+def _stem(name: str) -> str:
+    """The name of a field without its unit."""
+    return name.rpartition("_")[0] or name
 
 
 def _quote_parameter(value: object) -> str:

@@ -175,7 +175,7 @@ class Scenario:
 
 def fly(
     scenario: Scenario,
-    planner: Planner,
+    planner: Planner = plan,
     *,
     commands: Callable[[Second], Iterable[Command]] = no_commands,
     step: Second = 0.05,
@@ -189,10 +189,16 @@ def fly(
 ) -> Iterator[Document]:
     """Fly a scenario and say what happens, in order of time.
 
+    Examples:
+        >>> *_, end = rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0)
+        >>> end.message
+        'Joined, and followed for 120 s.'
+
     Args:
         scenario: what to fly.
-        planner: asked at engagement, whenever the leader does something new, and for better paths
-            as `Settings.ask_every` says. Its plans are judged before they are flown.
+        planner: the exact one if left out. It is asked at engagement, whenever the leader does
+            something new, and for better paths as `Settings.ask_every` says. Its plans are judged
+            before they are flown.
         commands: polled once a second with the flight time; its commands take effect at once.
         step: integration step [s]; a whole number of steps makes a second.
         sample_period: between samples [s]; a whole number of steps.
@@ -209,7 +215,14 @@ def fly(
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.
     """
+    if isinstance(scenario, str):
+        raise ValueError(f"scenario must be a Scenario: scenario({scenario!r}) makes one by name.")
     expect("scenario", scenario, Scenario)
+    if isinstance(planner, str):
+        raise ValueError(
+            "planner must be a function, as plan is: relguide.learn.planners.make_planner("
+            f"{planner!r}) makes one by name."
+        )
     expect_function("planner", planner)
     expect_function("commands", commands)
     expect_function("wants_fan", wants_fan)

@@ -17,7 +17,7 @@ import numpy as np
 
 from relguide.planning.inputs import Range, expect_whole, expect_within, truth
 from relguide.planning.reprs import as_code
-from relguide.units import FT, NM, Metre, MetrePerSecond, Second
+from relguide.units import NM, Metre, MetrePerSecond, Second
 
 PER_AXIS = sqrt(-2.0 * log(0.05))
 """How many σ of an axis hold 95 % of errors in the plane."""
@@ -47,7 +47,6 @@ LOSS_SHARE = Range(0.0, 0.5, "")
 """Accepted shares of lost reports."""
 BURST = Range(0.0, 60.0, "s")
 """Accepted longest times without a report."""
-ALTITUDE_STEP = Range(0.0, 100.0, "m")
 """Accepted steps of altitudes."""
 HISTORY = 6
 """So many seconds of the truth are kept, for the longest latency."""
@@ -74,8 +73,6 @@ class Surveillance:
     burst: Second = 6.0
     """Longest time without a report [s]; reports are lost one by one where it is no longer than two
     intervals."""
-    altitude_step: Metre = 25.0 * FT
-    """Altitudes are reported in steps of this [m]; 0 for none."""
 
     __repr__ = as_code
 
@@ -94,7 +91,6 @@ class Surveillance:
             "interval": INTERVAL,
             "loss_share": LOSS_SHARE,
             "burst": BURST,
-            "altitude_step": ALTITUDE_STEP,
         }.items():
             number = expect_within(name, getattr(self, name), *accepted)
             object.__setattr__(self, name, number)
@@ -115,12 +111,6 @@ class Surveillance:
         if self.kind == "exact":
             return 0.0
         return self.latency * (UNCOMPENSATED if self.compensated else 1.0)
-
-    def altitude_seen(self, altitude: Metre) -> Metre:
-        """An altitude as it is reported [m]."""
-        if self.kind == "exact" or self.altitude_step == 0.0:
-            return altitude
-        return round(altitude / self.altitude_step) * self.altitude_step
 
 
 EXACT = Surveillance()

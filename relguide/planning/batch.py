@@ -22,7 +22,7 @@ from relguide.kernels.base.turn import turn_radii
 from relguide.kernels.contact import time_rows as kernel
 from relguide.kernels.words.extremals import WORDS
 from relguide.planning import limits
-from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.aircraft import Leader, Pursuer, expect_distance
 from relguide.planning.constrained_path import BEARINGS, HARDER
 from relguide.planning.inputs import expect, expect_function, expect_whole, truth
 from relguide.planning.situation import Situation
@@ -71,7 +71,15 @@ RANGES = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Situations:
-    """Situations as columns, each of shape (n,) or one number for all; units as in `Situation`."""
+    """Situations as columns, each of shape (n,) or one number for all; units as in `Situation`.
+
+    Examples:
+        >>> asked = rg.Situations(
+        ...     pursuer_x=[-40e3, -60e3], pursuer_y=40e3, pursuer_heading=0.0, pursuer_tas=240.0,
+        ...     max_bank=0.4, leader_tas=200.0, slot_distance=10e3, min_separation=9_260.0)
+        >>> rg.plan_arrays(asked).time_to_converge.round()
+        array([427., 327.])
+    """
 
     pursuer_x: ArrayLike
     pursuer_y: ArrayLike
@@ -114,6 +122,10 @@ class Situations:
     def full_columns(self) -> tuple[Floats, ...]:
         """All columns at full length, unchecked."""
         return tuple(self._full().values())
+
+    def to_dict(self) -> dict[str, Floats]:
+        """Columns at full length by name, as data frames take them; `Situations(**frame)` back."""
+        return self._full()
 
     def _full(self) -> dict[str, Floats]:
         given = {f.name: _column(f.name, getattr(self, f.name)) for f in fields(self)}
@@ -173,13 +185,20 @@ class Times:
             )
         return Times(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
 
+    def __iter__(self) -> Iterator[TimeRow]:
+        """Row by row, of which `pandas.DataFrame(times)` makes a table."""
+        return (self[row] for row in range(len(self)))
+
     def __repr__(self) -> str:
         planned = self.time_to_converge[self.planned]
         span = f", {planned.min():.1f} … {planned.max():.1f} s" if len(planned) else ""
         return f"Times({len(self)} situations, {len(planned)} with a plan{span})"
 
     def to_dict(self) -> dict[str, NDArray[Any]]:
-        """Columns by name, as data frames and savez take them; verdict and word as text."""
+        """Columns by name, as data frames and savez take them; verdict and word as text.
+
+        Rows without a plan are infinite in time: `times[times.planned]` leaves them out.
+        """
         return {
             "time_to_converge": self.time_to_converge,
             "lower_bound": self.lower_bound,
@@ -303,6 +322,8 @@ def _column(name: str, given: ArrayLike) -> Floats:
         raise ValueError(f"{name} must be numbers, not {column.dtype}.")
     if column.ndim > 1:
         raise ValueError(f"{name} must be a number or a column of them, not of {column.ndim} axes.")
+    if type(given) is int and RANGES.get(name) is limits.DISTANCE:
+        expect_distance(name, given)
     return np.atleast_1d(column.astype(np.float64, copy=False))
 
 

@@ -1,13 +1,21 @@
 """What an aircraft declares that it will fly: straights, turns, changes of level, in order."""
 
 from dataclasses import dataclass
-from math import fmod
+from math import fmod, pi
 from typing import Literal, assert_never
 
 from relguide.kernels.base.angles import TWO_PI, turn_to
 from relguide.kernels.base.turn import turn_radius
 from relguide.planning.inputs import expect_within, number, text, turn_sign
-from relguide.planning.limits import ALTITUDE, BANK, HEADING, MAX_PIECES, PIECE, VERTICAL_RATE
+from relguide.planning.limits import (
+    ALTITUDE,
+    BANK,
+    DEGREES_MEANT,
+    HEADING,
+    MAX_PIECES,
+    PIECE,
+    VERTICAL_RATE,
+)
 from relguide.planning.reprs import as_code
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Straight, Trajectory, Turn
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
@@ -38,7 +46,8 @@ def expect_bank(name: str, value: object) -> Radian:
         ValueError: for what is no number, or lies outside.
     """
     bank = number(name, value)
-    expect_within(name, bank / DEG, *BANK)
+    meant = DEGREES_MEANT if 0.5 * pi < bank <= BANK.high else ""
+    expect_within(name, bank / DEG, BANK.low, BANK.high, BANK.unit, meant)
     return bank
 
 
@@ -59,7 +68,12 @@ class FlyStraight:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class TurnTo:
-    """A piece of intent: turn at constant bank to a heading, the way round that `turn` says."""
+    """A piece of intent: turn at constant bank to a heading, the way round that `turn` says.
+
+    Examples:
+        >>> rg.TurnTo.from_display(heading_deg=135, direction="right", bank_deg=20).turn == rg.RIGHT
+        True
+    """
 
     heading: Radian
     """Heading to roll out on, clockwise from north [rad]."""
@@ -98,6 +112,10 @@ class ChangeLevel:
 
     It takes no time of its own: the pieces behind it are flown while the level changes. A later
     change takes the place of one that is not over.
+
+    Examples:
+        >>> rg.ChangeLevel(to_altitude=9_000.0, rate=7.5)
+        ChangeLevel(to_altitude=9000.0, rate=7.5)
     """
 
     to_altitude: Metre

@@ -12,11 +12,13 @@ TAS = Range(30.0, 400.0, "m/s")
 """True airspeeds."""
 BANK = Range(1.0, 60.0, "°")
 """Bank angles."""
+KNOTS_MEANT = "Did you mean knots? Then use from_display."
+"""Said of a speed above `TAS` that in knots would be one of them."""
+DEGREES_MEANT = "Did you mean degrees? Then use from_display, or math.radians."
+"""Said of an angle that no aircraft flies in radians."""
 POSITION = Range(-1_000_000.0, 1_000_000.0, "m")
 """x and y."""
-HEADING = Range(
-    -2.0 * tau, 2.0 * tau, "rad", "Did you mean degrees? Then use from_display, or math.radians."
-)
+HEADING = Range(-2.0 * tau, 2.0 * tau, "rad", DEGREES_MEANT)
 """Headings: twice round, which the sum of two may be; beyond, degrees were given as radians."""
 DISTANCE = Range(0.0, 200_000.0, "m")
 """D and d_min."""

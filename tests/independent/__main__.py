@@ -1,4 +1,4 @@
-"""python -m tests.independent: the table of docs/flight.md, "A second opinion"."""
+"""python -m tests.independent: flights of docs/flight.md, "A second opinion", as a table."""
 
 import sys
 from collections.abc import Iterator

@@ -56,6 +56,22 @@ def client(url: str) -> Iterator[Client]:
         yield client
 
 
+@pytest.mark.parametrize("make", [Client, AsyncClient])
+@pytest.mark.parametrize(
+    ("url", "sentence"),
+    [
+        (
+            "127.0.0.1:8000",
+            r"url must begin with http:// or https://, not be '127\.0\.0\.1:8000'\.",
+        ),
+        ("http://a:8000/api/v1/", r"url must be where the service is, without /api/v1, not"),
+    ],
+)
+def test_an_address_that_is_none_is_refused(make: Any, url: str, sentence: str) -> None:
+    with pytest.raises(ValueError, match=sentence):
+        make(url)
+
+
 @given(situation=situations())
 @settings(max_examples=50, deadline=None)
 def test_a_situation_is_sent_as_it_is(situation: Situation) -> None:

@@ -3,11 +3,12 @@
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from relguide_server.serving import uvicorn_options
 from relguide_server.settings import ServiceSettings, options, settings_from
+
+from tests.pages import ROOT, pages
 
 
 def test_the_environment_overrides_and_an_option_overrides_it(
@@ -91,8 +92,19 @@ def test_the_stream_is_not_compressed() -> None:
     assert options["ws_per_message_deflate"] is False
 
 
-def test_every_setting_is_in_the_docs() -> None:
-    docs = Path(__file__).parents[2] / "docs"
-    text = (docs / "service.md").read_text() + (docs / "records.md").read_text()
-    named = set(re.findall(r"^\| `RELGUIDE_([A-Z_]+)`", text, flags=re.MULTILINE))
-    assert named == {name.upper() for name in ServiceSettings.model_fields}
+def test_settings_that_pages_name_are_there() -> None:
+    """Or they are variables of compose.yaml."""
+    composed = set(re.findall(r"\$\{(RELGUIDE_[A-Z_]+)", (ROOT / "compose.yaml").read_text()))
+    known = composed | {option.variable for option in options()}
+    named = {name for page in pages() for name in re.findall(r"RELGUIDE_[A-Z_]+", page.read_text())}
+    assert named <= known, named - known
+
+
+def test_options_that_the_page_names_are_there_with_these_defaults() -> None:
+    text = (ROOT / "docs" / "service.md").read_text()
+    fields = {option.flag: ServiceSettings.model_fields[option.name] for option in options()}
+    assert set(re.findall(r"`(--[a-z-]+)`", text)) <= set(fields)
+    told = re.findall(r"`(--[a-z-]+)` \((\d+)\)", text)
+    assert len(told) == 4
+    for flag, default in told:
+        assert str(fields[flag].default) == default, flag

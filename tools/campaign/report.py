@@ -1,4 +1,4 @@
-"""The figures of docs/flight.md: kept in benchmarks/results, drawn, and two tables in the page.
+"""The figures of docs/flight.md: kept in benchmarks/results, drawn, and three tables in the page.
 
 Margins, step responses and their pictures are computed in a minute; the campaign's tables are of
 files that were flown before.
@@ -12,7 +12,7 @@ from pathlib import Path
 from control import StateSpace
 
 from benchmarks.page import DOCS, FOLDER, RESULTS, with_block
-from benchmarks.tables import Cells, markdown, read_table, write_table
+from benchmarks.tables import Cells, columns, markdown, read_table, write_table
 from relguide.campaign.row import Row
 from relguide.flying.airframe import Airframe
 from relguide.units import DEG
@@ -31,13 +31,22 @@ from tools.campaign.loops import (
 
 PAGE = DOCS / "flight.md"
 AUTOPILOT, PATH, CAMPAIGN = "flight-autopilot.svg", "flight-path.svg", "flight-campaign.svg"
+MARGINS_FILE = "loop_margins.csv"
 SHOWN = {
-    "margins": "loop_margins.csv",
-    "campaign": "campaign.csv",
-    "mixed": "mixed.csv",
-    "by hand": "by_hand.csv",
+    "campaign": (
+        "campaign.csv",
+        ("family", "flights", "planned", "joined", "losses, planned", "losses, not planned"),
+    ),
+    "mixed": (
+        "mixed.csv",
+        ("the leader", "flights", "joined, %", tables.OVER_PROMISE, "losses with a plan"),
+    ),
+    "by hand": (
+        "by_hand.csv",
+        ("the leader", "flights", "joined by hand, %", "by the autopilot, %", "later, %"),
+    ),
 }
-"""Blocks of the page, and the files that they show."""
+"""Blocks of the page: the file that each shows, and the columns that a reader needs."""
 FIGURES = "campaign_figures.csv"
 """What the picture of the campaign is drawn from."""
 OTHER_GAINS = (
@@ -54,23 +63,22 @@ OTHER_GAINS = (
 """Of the path loop, side by side."""
 
 
-def write_loops(page: Path = PAGE, folder: Path = FOLDER, results: Path = RESULTS) -> None:
-    """Compute the loops, draw them, keep their tables and show the margins."""
+def write_loops(folder: Path = FOLDER, results: Path = RESULTS) -> None:
+    """Compute the loops, draw them and keep their tables."""
     folder.mkdir(exist_ok=True)
     pictures.draw_autopilot(folder / AUTOPILOT)
     pictures.draw_path(folder / PATH)
-    write_table(SHOWN["margins"], MARGINS, margins_cells(), results)
+    write_table(MARGINS_FILE, MARGINS, margins_cells(), results)
     write_table("loop_gains.csv", GAINS, gains_cells(), results)
     write_table("step_responses.csv", RESPONSES, responses_cells(), results)
     write_table("off_path.csv", OFF_PATH, off_path_cells(), results)
-    show("margins", page, results)
 
 
 def write_campaign(
     rows: Sequence[Row], page: Path = PAGE, folder: Path = FOLDER, results: Path = RESULTS
 ) -> None:
     """Draw the campaign, keep its tables and show the overview."""
-    write_table(SHOWN["campaign"], tables.OVERVIEW, tables.overview(rows), results)
+    write_table(SHOWN["campaign"][0], tables.OVERVIEW, tables.overview(rows), results)
     figures = [
         [family, *cells]
         for family, own in tables.by_family(rows)
@@ -85,35 +93,39 @@ def write_campaign(
 
 def write_inexact(rows: Sequence[Row], page: Path = PAGE, results: Path = RESULTS) -> None:
     """Keep and show the table of flights in which nothing is exact."""
-    write_table(SHOWN["mixed"], tables.INEXACT, tables.inexact(rows), results)
+    write_table(SHOWN["mixed"][0], tables.INEXACT, tables.inexact(rows), results)
     show("mixed", page, results)
 
 
 def write_by_hand(rows: Sequence[Row], page: Path = PAGE, results: Path = RESULTS) -> None:
     """Keep and show the table of flights along the flight director's bars."""
-    write_table(SHOWN["by hand"], tables.BY_HAND, tables.by_hand(rows), results)
+    write_table(SHOWN["by hand"][0], tables.BY_HAND, tables.by_hand(rows), results)
     show("by hand", page, results)
 
 
 def show(block: str, page: Path = PAGE, results: Path = RESULTS) -> None:
     """Write the table of a block into the page, as it was kept."""
-    table = markdown(*read_table(SHOWN[block], results))
-    page.write_text(with_block(page.read_text(), block, table))
+    page.write_text(with_block(page.read_text(), block, table(block, results)))
+
+
+def table(block: str, results: Path = RESULTS) -> str:
+    """The table of a block, in Markdown."""
+    file, names = SHOWN[block]
+    return markdown(*columns(*read_table(file, results), names))
 
 
 MARGINS = "loop", "crossover, rad/s", "bears a delay of", "gain margin", "phase margin"
-ROLL_MODES = (1.0, 0.7, 1.3)
-"""Factors of the roll mode's time constant."""
+MODELS = [
+    replace(A306, roll_time_constant=factor * A306.roll_time_constant) for factor in (1.0, 0.7, 1.3)
+]
+"""As it is, and with the roll mode quicker and slower."""
 
 
 def margins_cells() -> Cells:
     """Each loop; in brackets with the roll mode quicker and slower."""
-    models = [
-        replace(A306, roll_time_constant=factor * A306.roll_time_constant) for factor in ROLL_MODES
-    ]
     cells = []
     for name, loop in LOOPS.items():
-        found = [margins(loop(model)) for model in models]
+        found = [margins(loop(model)) for model in MODELS]
         plain, *others = found
         gains = ", ".join(f"{one.gain:.0f}" for one in others)
         phases = ", ".join(f"{one.phase:.0f}°" for one in others)

@@ -15,8 +15,9 @@ OVERVIEW = (
     "family", "flights", "planned", "joined", "losses, planned", "losses, not planned",
     "of these avoidable", "losses without a word", "circles", "errors", "simulated s per CPU s",
 )  # fmt: skip
+OVER_PROMISE = "join over promise, median and 95 %, %"
 INEXACT = (
-    "the leader", "flights", "joined, %", "join over promise, median and 95 %, %",
+    "the leader", "flights", "joined, %", OVER_PROMISE,
     "plans shown, median and 95 %", "losses with a plan", "without a word",
 )  # fmt: skip
 BY_HAND = (

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 import yaml
@@ -21,7 +22,7 @@ from tools.container.debian import confined, inside
 from tools.container.dockerfile import ROOT
 from tools.container.image import Stage
 
-PASSWORD = "of-the-tests"
+PASSWORD = "p@ss/w: #%40'$"
 NUMBERS = {
     "database": (2,), "flights-a": (3,), "planner": (4, 5), "proxy": (6,), "flights-b": (7,)
 }  # fmt: skip
@@ -33,13 +34,23 @@ PATIENCE = 120.0
 def composition() -> dict[str, Any]:
     """The file, its variables as a user sets them who sets but the password."""
 
+    given = {"RELGUIDE_PASSWORD": PASSWORD}
+
     def value(found: re.Match[str]) -> str:
         name, default = found.groups()
-        return {"RELGUIDE_PASSWORD": PASSWORD}.get(name, default or "")
+        return given.get(name, default or "") if name else "$"
 
-    text = (ROOT / "compose.yaml").read_text()
-    text = re.sub(r"(?<!\$)\$\{(\w+)(?::-([^}]*)|:\?[^}]*)?\}", value, text)
-    read: dict[str, Any] = yaml.safe_load(text.replace("$$", "$"))
+    def filled(read: Any) -> Any:
+        match read:
+            case str():
+                return re.sub(r"\$\$|\$\{(\w+)(?::-([^}]*)|:\?[^}]*)?\}", value, read)
+            case dict():
+                return {name: filled(part) for name, part in read.items()}
+            case list():
+                return [filled(part) for part in read]
+        return read
+
+    read: dict[str, Any] = filled(yaml.safe_load((ROOT / "compose.yaml").read_text()))
     for service in read["services"].values():
         given = service.get("environment", {})
         service["environment"] = {name: value or "" for name, value in given.items()}
@@ -137,7 +148,7 @@ def database(root: Path, on: list[str], said: dict[str, Any]) -> Iterator[Contai
     setup = (
         "export PATH=$(ls -d /usr/lib/postgresql/*/bin):$PATH\n"
         "install -d -o postgres /var/lib/relguide && cd /var/lib/relguide\n"
-        f'printf %s "{password}" > word && chown postgres word\n'
+        f"printf %s {quote(password)} > word && chown postgres word\n"
         f"setpriv --reuid postgres --init-groups initdb -D data -U {user} --pwfile word "
         "-A scram-sha-256 >/dev/null\n"
         "echo 'host all all all scram-sha-256' >> data/pg_hba.conf\n"
@@ -151,7 +162,7 @@ def database(root: Path, on: list[str], said: dict[str, Any]) -> Iterator[Contai
         made = Container(on, root, {}, process)
         try:
             made.wait_until_healthy([*said["healthcheck"]["test"][1:], "--host", "127.0.0.1"])
-            shell = f"PGPASSWORD='{password}' createdb -h 127.0.0.1 -U {user} {user}"
+            shell = f"PGPASSWORD={quote(password)} createdb -h 127.0.0.1 -U {user} {user}"
             made_database = made.run(["/bin/sh", "-c", shell])
             assert made_database.returncode == 0, made_database.stderr
             yield made

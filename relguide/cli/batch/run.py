@@ -97,6 +97,8 @@ def answer_file(
         noun = "line is" if reached.invalid == 1 else "lines are"
         first = reached.first_invalid
         say(f"{reached.invalid} {noun} no valid situation, the first is line {first}.")
+        if 1 < reached.invalid == reached.answers:
+            say(f"If {file} is one situation, leave --batch out.")
     return FAILED if reached.invalid else DONE
 
 

@@ -183,6 +183,11 @@ class _Table:
         place = self._first(names)
         if place is None:
             found = ", ".join(self.header[:MOST_SHOWN]) or "nothing"
+            if self.header and self.header[0].replace(".", "").isdigit():
+                raise ValueError(
+                    f"{self.source}, line 1 must name the columns, and holds values: {found}. Read "
+                    f"are {READ}."
+                )
             raise ValueError(
                 f"{self.source}, line 1: column {name} is missing. Found: {found}. Read are {READ}."
             )

@@ -13,6 +13,7 @@ from relguide.flying.smoothing import MAX_GAP, MIN_POINTS, SmoothMotion, smooth_
 from relguide.flying.spline import Array
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.frames import middle_of
+from relguide.planning.limits import ALTITUDE
 from relguide.units import DEG, FT, KT, Second
 
 STEP: Second = 1.0
@@ -55,6 +56,12 @@ def track_of(numbers: Array, ident: str, aircraft_type: str, source: str) -> Rec
     airborne = _longest_run(np.hypot(motion.east, motion.north) >= AIRBORNE)
     if airborne.stop - airborne.start < MIN_POINTS:
         raise ValueError(f"{source} never flies {MIN_POINTS} s faster than {AIRBORNE:g} m/s.")
+    highest = float(np.max(motion.altitude[airborne]))
+    if not ALTITUDE.admits(highest):
+        raise ValueError(
+            f"{source} flies at {highest:.0f} m, and aircraft fly at {ALTITUDE.high:g} m at most. "
+            "If its altitudes are in feet, call their column altitude_ft."
+        )
     east, north = motion.east[airborne], motion.north[airborne]
     return RecordedTrack(
         ident=ident,

@@ -7,8 +7,6 @@ A Kalman filter of a wind that wanders; both components have one gain. Plain fun
 compiled within kernels.
 """
 
-from math import cos, sin
-
 from numba.extending import register_jitable
 
 from relguide.kernels.flight.flight_records import Drift
@@ -19,19 +17,6 @@ WANDERING = 0.05
 """q: a wind that changes by 5 m/s within 100 km, 8 minutes of flight [m²/s³]; an estimate."""
 UNKNOWN_VARIANCE = 10.0**2
 """P at first: forecasts are wrong by 3–8 m/s [m²/s²]."""
-
-
-@register_jitable
-def measured_wind(tas: float, heading: float, east: float, north: float) -> Drift:
-    """The wind by the wind triangle.
-
-    Args:
-        tas: measured true airspeed V [m/s].
-        heading: measured ψ, clockwise from north [rad].
-        east: measured ground velocity [m/s].
-        north: the same [m/s].
-    """
-    return Drift(east - tas * sin(heading), north - tas * cos(heading))
 
 
 @register_jitable

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from relguide.atc.phraseology import clearance_text, expect_text, request_text, unable_text
+from relguide.atc.phraseology import clearance_text, request_text, unable_text
 from relguide.units import NM
 from tests.relguide.atc.pictures import drawn_path, manoeuvre_on
 
@@ -17,11 +17,9 @@ def test_a_request_names_the_place_and_the_leader():
     assert request_text(by_time) == "REQUEST CAPTURE AND MAINTAIN 90 SEC BEHIND BAW12"
 
 
-def test_a_clearance_and_a_promise():
+def test_a_clearance():
     asked = replace(ASKED, spacing=5.5 * NM)
     assert clearance_text(asked) == "CLEARED CAPTURE AND MAINTAIN 5.5 NM BEHIND BAW12"
-    assert expect_text(asked, 60.0) == "EXPECT CAPTURE AND MAINTAIN 5.5 NM BEHIND BAW12 IN 60 SEC"
-    assert expect_text(asked, 120.0) == "EXPECT CAPTURE AND MAINTAIN 5.5 NM BEHIND BAW12 IN 2 MIN"
 
 
 def test_a_refusal_says_its_cause():

@@ -47,6 +47,8 @@ def test_positions_without_a_name_are_flown_behind(run: Run) -> None:
         (("notes.txt",), "column timestamp is missing. Found: no table."),
         (("notes.md",), "Flown are situations (.json) and tables of OpenSky, traffic or "),
         (("missing.csv",), "No such file"),
+        (("states.json",), "leader: is missing."),
+        (("states.json",), "Flown are situations (.json) and tables of OpenSky, traffic or "),
     ],
 )
 def test_what_cannot_be_flown_is_refused_by_what_can(
@@ -54,6 +56,7 @@ def test_what_cannot_be_flown_is_refused_by_what_can(
 ) -> None:
     write("no table", "notes.txt")
     write("no table", "notes.md")
+    write({"time": 1633608000, "states": []}, "states.json")
     code, _, err = run("fly", *arguments)
     assert code == 2
     assert sentence in err

@@ -240,6 +240,25 @@ def test_a_bad_line_is_answered_in_its_place(run: Run) -> None:
     assert err == "relguide: 2 lines are no valid situation, the first is line 2.\n"
 
 
+def test_one_situation_and_many_are_told_apart(run: Run) -> None:
+    lines = write("\n".join([json.dumps(BODY)] * 2), "batch.jsonl")
+    for command in ("plan", "fly"):
+        code, _, err = run(command, lines)
+        assert code == 2
+        assert "a situation a line: relguide plan --batch plans them all" in err
+    assert run("plan", write(json.dumps(BODY) + "\n"))[0] == 0
+    code, _, err = run("plan", "--batch", write(json.dumps(BODY, indent=2)))
+    assert code == 1
+    assert err.endswith("relguide: If situation.json is one situation, leave --batch out.\n")
+
+
+def test_miles_given_as_metres_are_asked_about(run: Run) -> None:
+    code, _, err = run("plan", write(BODY | {"slot_distance_m": 6, "min_separation_m": 5}))
+    assert code == 0
+    assert "relguide: slot_distance_m is 6 m. If 6 NM are meant: 11112.\n" in err
+    assert "relguide: min_separation_m is 5 m. If 5 NM are meant: 9260.\n" in err
+
+
 def test_an_empty_batch_has_no_answers(run: Run) -> None:
     assert run("plan", "--batch", write("", "batch.jsonl")) == (0, "", "")
 

@@ -246,6 +246,21 @@ def test_gusts_are_asked_for_on_the_command_line(run: Run) -> None:
     assert "must lie in 0 … 10 m/s, not 11" in err
 
 
+def test_winds_by_altitude_come_from_a_file(run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "winds.csv"
+    file.write_text("altitude_m,u_mps,v_mps\n3000,0,0\n9449,0,-30\n")
+    calm, windy = (
+        json.loads(run("fly", write(NEAR), "--json", *more)[1])
+        for more in ((), ("--winds", str(file)))
+    )
+    assert windy["joined"]
+    assert windy["track_nm"] != pytest.approx(calm["track_nm"], rel=1e-3)
+    file.write_text("altitude_m,u_mps\n3000,0\n")
+    code, out, err = run("fly", write(NEAR), "--winds", str(file))
+    assert (code, out) == (2, "")
+    assert "winds.csv, line 1" in err
+
+
 @pytest.mark.slow
 def test_an_hour_of_following_makes_the_flight_longer_than_an_hour(run: Run) -> None:
     code, out, _ = run("fly", write(NEAR), "--after-joining", "3600", "--json")

@@ -64,6 +64,19 @@ def test_a_left_turn_is_a_left_turn() -> None:
 
 
 @pytest.mark.parametrize(
+    ("given", "meant"),
+    [("x", "x_m"), ("x_nm", "x_m"), ("tas", "tas_mps"), ("tas_kt", "tas_mps"),
+     ("heading", "heading_deg"), ("bank", "max_bank_deg"), ("bank_deg", "max_bank_deg")],
+)  # fmt: skip
+def test_a_field_without_its_unit_is_asked_about(given: str, meant: str) -> None:
+    named = {k: v for k, v in BODY["pursuer"].items() if k != meant} | {given: 1}
+    with pytest.raises(ContractError) as refused:
+        situation_from_json(json.dumps(BODY | {"pursuer": named}))
+    said = f"is not a field of the contract: did you mean {meant}?"
+    assert (f"pursuer.{given}", said) in refused.value.problems
+
+
+@pytest.mark.parametrize(
     ("path", "value", "where", "sentence"),
     [
         ("pursuer.tas_mps", ..., "pursuer.tas_mps", "is missing."),

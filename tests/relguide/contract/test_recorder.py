@@ -17,6 +17,7 @@ from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
 from relguide.planning.plan import plan
 from tests.documents import documents
+from tests.pages import ROOT
 from tests.relguide.contract.test_wire import SAMPLE, assert_equal
 
 SAID = LeaderChanged(
@@ -215,3 +216,16 @@ def test_a_recording_in_memory_is_that_of_a_file(tmp_path: Path) -> None:
     file = tmp_path / "flight.jsonl"
     list(record(flown, file))
     assert recording_of(flown) == file.read_bytes()
+
+
+def test_a_recording_of_an_earlier_release_is_replayed() -> None:
+    """Of 0.2.0, with a sample each three minutes: what it does not say reads as nothing."""
+    file = ROOT / "tests" / "golden" / "flight-0.2.0.jsonl"
+    flown = list(replay(file))
+    assert len(flown) == len(file.read_text().splitlines()) - 1
+    samples = [document for document in flown if isinstance(document, Sample)]
+    assert {sample.guidance[0].margin for sample in samples} == {0.0}
+    ended = flown[-1]
+    assert isinstance(ended, FlightEnded)
+    (result,) = ended.results
+    assert (result.join_time, result.optimum, result.along_error) == (917.0, 0.0, 0.0)

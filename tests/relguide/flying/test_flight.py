@@ -378,6 +378,16 @@ def test_what_cannot_be_is_refused(make: object, sentence: str) -> None:
         make()
 
 
+def test_a_scenario_is_flown_by_the_exact_planner_and_not_by_names() -> None:
+    assert next(fly(FIG_6B)) == next(fly(FIG_6B, plan))
+    with pytest.raises(
+        ValueError, match=r"scenario must be a Scenario: scenario\('fig_6b'\) makes"
+    ):
+        fly("fig_6b")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"as plan is: .*make_planner\('network'\) makes one"):
+        fly(FIG_6B, "network")  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("turn", [LEFT, RIGHT])
 def test_a_declared_turn_of_355_degrees_is_flown_as_declared(turn: Turn) -> None:
     """And joined when promised: not taken for one of 5° the other way."""

@@ -15,7 +15,6 @@ from relguide.flying.surveillance import (
     Report,
     Surveillance,
 )
-from relguide.units import FT
 
 EAST, NORTH = 180.0, -90.0
 CLEAR = {"loss_share": 0.0, "latency": 0.0}
@@ -45,14 +44,12 @@ def test_exact_surveillance_hears_the_truth_each_second() -> None:
     assert [r.t for r in reports if r] == list(range(20))
     assert not off(reports).any()
     assert (EXACT.position_sigma, EXACT.velocity_sigma, EXACT.lag) == (0.0, 0.0, 0.0)
-    assert EXACT.altitude_seen(9_449.1) == 9_449.1
 
 
 def test_sigmas_are_those_of_the_categories() -> None:
     seen = Surveillance(kind="adsb", nacp=8, nacv=1)
     assert seen.position_sigma == pytest.approx(37.83, abs=0.01)  # 92.6 m (95 %)
     assert seen.velocity_sigma == pytest.approx(4.085, abs=0.001)  # 10 m/s (95 %)
-    assert seen.altitude_seen(10_000.0 * FT + 5.0) == pytest.approx(10_025.0 * FT)
 
 
 def test_noise_is_as_large_as_it_says_and_positions_drift() -> None:
@@ -148,7 +145,6 @@ def test_who_looks_between_reports_hears_nothing() -> None:
         ({"interval": 0.5}, "interval must lie in 1 … 30 s, not 0.5 s"),
         ({"loss_share": 1.0}, "loss_share must lie in 0 … 0.5, not 1"),
         ({"burst": 600}, "burst must lie in 0 … 60 s, not 600 s"),
-        ({"altitude_step": "25 ft"}, "altitude_step must be a number, not '25 ft'"),
     ],
 )
 def test_surveillance_that_is_none_is_refused(wrong: dict[str, object], sentence: str) -> None:

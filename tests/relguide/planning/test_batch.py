@@ -1,6 +1,7 @@
 """Many at once: the same answers as one by one, whatever the number of threads."""
 
 import re
+from collections.abc import Iterable
 from dataclasses import fields, replace
 from math import inf, nan, pi
 
@@ -186,6 +187,20 @@ def test_beyond_the_horizon_as_plan_says() -> None:
     answers = plan_arrays(slow, limited=False)
     assert answers.verdict.tolist() == ["beyond_horizon"]
     assert answers.time_to_converge.tolist() == [inf]
+
+
+def test_columns_go_to_a_frame_and_back() -> None:
+    """A frame's rows are named tuples, its columns arrays of one length."""
+    frame = COLUMNS.to_dict()
+    assert {len(column) for column in frame.values()} == {len(frame["pursuer_x"])}
+    times, again = plan_arrays(COLUMNS), plan_arrays(Situations(**frame))
+    assert isinstance(times, Iterable)
+    assert [*times] == [*again] == [times[row] for row in range(len(times))]
+
+
+def test_miles_given_as_metres_are_asked_about() -> None:
+    with pytest.raises(ValueError, match=r"slot_distance is in metres, .* Did you mean 6 NM\?"):
+        plan_arrays(replace(COLUMNS, slot_distance=6, min_separation=5))
 
 
 def test_times_are_rows_and_columns() -> None:

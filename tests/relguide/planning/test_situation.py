@@ -82,6 +82,21 @@ def test_degrees_given_as_radians_are_asked_about(degrees: float) -> None:
             make()
 
 
+def test_degrees_of_bank_and_knots_are_asked_about() -> None:
+    with pytest.raises(
+        ValueError, match=r"not 1432\.39449 °\. Did you mean degrees\? Then use from"
+    ):
+        replace(PURSUER, max_bank=25)
+    with pytest.raises(
+        ValueError, match=r"not 465 m/s\. Did you mean knots\? Then use from_display"
+    ):
+        replace(PURSUER, tas=465)
+    for unclear in ({"tas": 29.0}, {"tas": 1e4}, {"max_bank": 1.2}, {"max_bank": 61.0}):
+        with pytest.raises(ValueError, match=r"[^?]+$") as refused:
+            replace(PURSUER, **unclear)  # type: ignore[arg-type]
+        assert "?" not in str(refused.value)
+
+
 def test_the_sum_of_two_headings_is_a_heading_and_so_are_all_degrees() -> None:
     assert replace(PURSUER, heading=3.9 * pi).heading == 3.9 * pi
     display = {"x_nm": 0.0, "y_nm": 0.0, "tas_kt": 400.0}

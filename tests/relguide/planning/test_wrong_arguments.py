@@ -22,7 +22,10 @@ UNIONS = {"Command"}
 """What is one of several that are called."""
 PARTS = {"Arc", "BoundaryArc", "DeclaredLeader", "Guided", "RecordedTrack", "Straight"}
 """What a `Trajectory` or a `Scenario` checks as it is made of them."""
-FILES = {"Flight", "load_airframe", "load_settings", "load_track", "picture", "replay"}
+FILES = {
+    "Flight", "load_airframe", "load_grib", "load_profile", "load_settings", "load_track",
+    "picture", "replay",
+}  # fmt: skip
 """What reads a file or a flight's documents: tests of its own say what it refuses."""
 METHODS = {"from_trajectory", "over_ground", "pose_at", "sample"}
 ARGUMENTS = [(name, argument) for name, (_, given) in CALLS.items() for argument in given]

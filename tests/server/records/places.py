@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import psycopg
+from psycopg import sql
 from relguide_server.records.clock import Clock
 from relguide_server.records.database import url_of
 from relguide_server.records.store import Store
@@ -73,6 +74,16 @@ class Postgres:
             self._server.send_signal(signal.SIGQUIT if for_good else signal.SIGINT)
             self._server.wait(20.0)
             self._server = None
+
+    def ask_for_password(self, password: str) -> None:
+        """Let nobody in from now on but by this password."""
+        address = f"postgresql://relguide@127.0.0.1:{self.port}/postgres"
+        with psycopg.connect(address, autocommit=True) as connection:
+            word = sql.Literal(password)
+            connection.execute(sql.SQL("ALTER ROLE relguide PASSWORD {}").format(word))
+            rules = self.data / "pg_hba.conf"
+            rules.write_text("host all all 127.0.0.1/32 scram-sha-256\n")
+            connection.execute("SELECT pg_reload_conf()")
 
     def empty_database(self) -> str:
         """The address of its database, in which nothing is left of what was before.

@@ -7,15 +7,10 @@ import time
 from pathlib import Path
 
 import pytest
-import sqlalchemy as sa
-from alembic import command
-from alembic.config import Config
-from relguide_server.records import database
 from relguide_server.records.clock import Clock
-from relguide_server.records.entries import Began, Unavailable
+from relguide_server.records.entries import Began
 from relguide_server.records.queries import each_chunk
 from relguide_server.records.recorder import FlightRecorder
-from relguide_server.records.schema import HEAD, flights, metadata
 
 from tests.server.flown import ideal_flight
 from tests.server.records.flown_cards import card
@@ -137,73 +132,3 @@ def test_a_server_that_stops_and_starts_again_is_caught_up_with(server: Postgres
     assert row_of(store, "one")["documents"] == count > 60
     assert writer.counts.documents_lost == 0
     home.close()
-
-
-def alembic_to(url: str, revision: str) -> sa.Engine:
-    engine = sa.create_engine(database.url_of(url, Path("unused")))
-    config = Config()
-    config.set_main_option("script_location", str(database.MIGRATIONS))
-    with engine.begin() as connection:
-        config.attributes["connection"] = connection
-        command.upgrade(config, revision)
-    return engine
-
-
-def test_old_tables_are_brought_up_to_date_with_what_is_in_them(url: str) -> None:
-    engine = alembic_to(url, "0001")
-    assert not sa.inspect(engine).has_table("plans")
-    with engine.begin() as connection:
-        connection.execute(sa.text("INSERT INTO runs VALUES ('old', 'here', '0.1', 1.0, 2.0, 3)"))
-        connection.execute(
-            sa.text(
-                "INSERT INTO flights VALUES ('one', 'old', 's', 't', '{}', '{}', 0, '0.1', 3, '', "
-                "1.0, 2.0, 'joined', 0, 0, 0, '{}')"
-            )
-        )
-    engine.dispose()
-    home = Home(url)
-    store = home.store()
-    assert sa.inspect(store.engine).has_table("plans")
-    with database.reading(store.engine) as connection:
-        assert connection.scalar(sa.select(flights.c.id)) == "one"
-        assert connection.scalar(sa.text("SELECT version_num FROM alembic_version")) == HEAD
-    home.close()
-
-
-def test_the_tables_are_those_that_the_revisions_make(url: str) -> None:
-    from alembic.autogenerate import compare_metadata
-    from alembic.migration import MigrationContext
-
-    engine = alembic_to(url, "head")
-    with engine.connect() as connection:
-        assert compare_metadata(MigrationContext.configure(connection), metadata) == []
-    engine.dispose()
-
-
-def test_tables_of_a_newer_version_are_left_alone(url: str) -> None:
-    engine = alembic_to(url, "head")
-    with engine.begin() as connection:
-        connection.execute(sa.text("UPDATE alembic_version SET version_num = '9999'"))
-    engine.dispose()
-    home = Home(url)
-    with pytest.raises(Unavailable, match="newer version"):
-        home.store()
-    home.close()
-
-
-def test_what_a_start_would_do_is_said_and_not_done(url: str) -> None:
-    where = database.url_of(url, Path("unused"))
-    first = database.outlook(where)
-    assert "at the start" in first
-    assert database.outlook(where) == first
-    for revision, said in (("0001", f"tables of revision 0001, brought up to {HEAD}"),
-                           ("head", f"the tables of this version (revision {HEAD})")):  # fmt: skip
-        alembic_to(url, revision).dispose()
-        assert said in database.outlook(where)
-        assert said in database.outlook(where)
-    engine = alembic_to(url, "head")
-    with engine.begin() as connection:
-        connection.execute(sa.text("UPDATE alembic_version SET version_num = '9999'"))
-    engine.dispose()
-    with pytest.raises(Unavailable, match="newer version"):
-        database.outlook(where)

@@ -142,6 +142,10 @@ def test_reports_on_the_ground_are_known(column: str, cell: str, on_ground: floa
         ("a;b;c", r"column timestamp is missing\. Found: a;b;c\. Read are a time \(timestamp, "),
         ("time,Position,x", r"column altitude is missing\. Found: time, Position, x\."),
         ("time,lat,Position,altitude", r"column longitude is missing\."),
+        (
+            "1633608000,48.1,2.3,9449",
+            r"line 1 must name the columns, and holds values: 1633608000,",
+        ),
     ],
 )
 def test_a_header_is_refused_by_what_it_has(header: str, sentence: str) -> None:

@@ -94,6 +94,15 @@ def test_no_altitudes_no_track(file: Path) -> None:
         load_track(write_csv(file, [{**r, "altitude": ""} for r in rows(100)]))
 
 
+def test_feet_given_as_metres_are_asked_about(file: Path) -> None:
+    high = [{**r, "baroaltitude": r["altitude"] + 30_000.0} for r in rows(100)]
+    columns = ("timestamp", "latitude", "longitude", "baroaltitude")
+    with pytest.raises(
+        ValueError, match=r"track\.csv flies at 4\d{4} m, .* call their column altitude_f"
+    ):
+        load_track(write_csv(file, high, columns))
+
+
 def test_a_parked_aircraft_is_no_leader(file: Path) -> None:
     parked = [{**r, "latitude": 49.0 + n * 1e-6} for n, r in enumerate(rows(100))]
     for r in parked:

@@ -1,6 +1,6 @@
 """The wind is found from air data and ground track, and then wanders no more than it must."""
 
-from math import cos, hypot, sin, sqrt
+from math import hypot, sqrt
 
 import numpy as np
 import pytest
@@ -11,7 +11,6 @@ from relguide.kernels.flight.wind_estimate import (
     UNKNOWN_VARIANCE,
     WANDERING,
     estimate,
-    measured_wind,
 )
 
 TRUE = Drift(20.0, -5.0)
@@ -24,12 +23,6 @@ def estimates(seconds: int, first: Drift, noise: float, rng: np.random.Generator
         w, variance = estimate(w, variance, seen, MEASURED_VARIANCE, WANDERING, 1.0)
         found.append(w)
     return found
-
-
-def test_the_wind_triangle_gives_the_wind() -> None:
-    tas, heading = 230.0, 0.7
-    east, north = tas * sin(heading) + TRUE.east, tas * cos(heading) + TRUE.north
-    assert measured_wind(tas, heading, east, north) == pytest.approx(TRUE)
 
 
 def test_ten_metres_a_second_wrong_are_half_after_a_quarter_of_a_minute() -> None:
