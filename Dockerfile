@@ -17,9 +17,13 @@ COPY requirements.lock ./
 RUN pip install --no-deps --require-hashes --requirement requirements.lock
 # What is installed carries the web page, built here with a Node that pip brings.
 COPY . .
+# The guide, by tools that go no further than this stage.
+RUN python -m venv /guide \
+    && /guide/bin/pip install zensical==0.0.73 "mkdocstrings-python>=2.0.11,<2.1" \
+    && /guide/bin/python -m zensical build --strict
 # It is this source tree that is installed, so there is no version to pin.
 # hadolint ignore=DL3013
-RUN pip install --no-deps .
+RUN RELGUIDE_GUIDE=build/guide pip install --no-deps .
 # The kernels are compiled beside what is installed, for any CPU of this kind: that costs no speed,
 # and the image may run elsewhere than it was built, as any user, with a read-only disk.
 ARG JOBS=
