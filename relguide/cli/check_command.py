@@ -37,9 +37,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="triplets in JSON; left out: those of the fastest plan",
     )
     add_form(parser)
-    parser.add_argument(
-        "--figure", metavar="FILE.svg", type=_drawing, default="", help="draw both tracks"
-    )
+    parser.add_argument("--figure", metavar="FILE.svg", type=_drawing, help="draw both tracks")
 
 
 def run(chosen: argparse.Namespace) -> int:
