@@ -77,8 +77,8 @@ def _situation_drawing() -> str:
     # both now and at T: the plan keeps clear of the circle that moves with the leader
     page.circle((0.0, 0.0), situation.min_separation, LIMIT, passed=True)
     page.circle((0.0, over_there), situation.min_separation, LIMIT)
-    page.text((6.3e3, 8.4e3), "d = d_min, now", LIMIT)
-    page.text((6.3e3, over_there + 6.9e3), "and at T", LIMIT)
+    page.text((6.3e3, 8.4e3), "d_min now", LIMIT)
+    page.text((6.3e3, over_there + 6.9e3), "d_min at T", LIMIT)
     page.scale((-29e3, over_there + 9e3), 10e3, "10 km")
     page.line([(pursuer.x, pursuer.y), (0.0, 0.0)], PALE, dashed=True)
     page.text((-15.0e3, -8.3e3), "d", PALE)

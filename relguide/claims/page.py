@@ -1,6 +1,7 @@
 """docs/claims.md: every claim, what measures it, and what was obtained last."""
 
 from collections.abc import Mapping, Sequence
+from math import floor, log10
 
 from relguide.claims.claim import Claim
 from relguide.claims.run import total_minutes
@@ -56,6 +57,8 @@ def number(value: float, like: Claim) -> str:
     """A number with as many decimals as its claim is told with."""
     told = (like.expected, like.tolerance or 0.0, like.at_most or 0.0, like.at_least or 0.0)
     decimals = max(len(f"{one:.10g}".partition(".")[2]) for one in told)
+    if value and not round(value, decimals):
+        decimals = 1 - floor(log10(abs(value)))
     return f"{value:,.{decimals}f}"
 
 

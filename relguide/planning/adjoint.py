@@ -3,7 +3,7 @@
 They solve (11), (12) and (13).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from math import atan2, ceil, cos, hypot, sin
 
 import numpy as np
@@ -16,7 +16,7 @@ from relguide.planning.trajectory import Trajectory
 from relguide.units import Second
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class AdjointHistory:
     """H and the adjoint variables along a trajectory: as many of each as there are times.
 
@@ -33,6 +33,9 @@ class AdjointHistory:
     """λ_θ of (12) [s/rad]."""
     switching: tuple[float, ...]
     """λ_ψ of (13) [s/rad]: the switching function of eq. (16)."""
+
+    def __repr__(self) -> str:
+        return f"AdjointHistory({len(self.times)} times: {', '.join(f.name for f in fields(self))})"
 
 
 def adjoint_history(

@@ -19,10 +19,10 @@ from relguide.planning.limits import (
     ALTITUDE,
     DISTANCE,
     HEADING,
-    KNOTS_MEANT,
     MOST_MILES,
     POSITION,
     TAS,
+    in_knots,
     in_miles,
 )
 from relguide.planning.reprs import as_code
@@ -52,7 +52,7 @@ def _settle_aircraft(name: str, aircraft: "Pursuer | Leader | Traffic") -> None:
     settle(aircraft, "y", expect_within(f"{name}.y", aircraft.y, *POSITION))
     settle(aircraft, "heading", expect_within(f"{name}.heading", aircraft.heading, *HEADING))
     tas = number(f"{name}.tas", tas)
-    meant = KNOTS_MEANT if TAS.high < tas <= TAS.high / KT else ""
+    meant = in_knots(tas) if tas > TAS.high else ""
     settle(aircraft, "tas", expect_within(f"{name}.tas", tas, TAS.low, TAS.high, TAS.unit, meant))
 
 

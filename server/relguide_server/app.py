@@ -64,7 +64,7 @@ DESCRIPTION = """Minimum-time relative guidance: plans with a proof, and flights
 
 Every field names its unit. Headings count clockwise from true north. Errors are problem documents
 (RFC 9457). A flight is watched by WebSocket at `/api/v1/flights/{id}/stream` (see `/docs/stream`),
-and in 3D at `/scene/{id}/`."""
+and in 3D at `/scene/{id}/`. The guide to all of relguide is at [`/guide/`](guide/)."""
 
 NO_TELEMETRY: TelemetryConfig = {"tracing": False, "metrics": False, "logs": False}
 """The framework's own, which looks for exporters at each request: `Metrics` counts here."""

@@ -75,7 +75,7 @@ def _in_wind(direction: Radian, speed: MetrePerSecond) -> Scenario:
 
 def _paths(axes: "Axes", calm: Flown, strongest: dict[float, Flown]) -> None:
     as_map(axes)
-    axes.set_title(f"over the ground, {SPEEDS[-1]:.0f} m/s; dots: joined")
+    axes.set_title(f"over the ground, {SPEEDS[-1]:.0f} m/s; thin: the leader, dots: joined")
     for flight, colour, dashes, width in (
         (calm, PALE, "-", 3.0),
         *(

@@ -272,8 +272,8 @@ async def atc_stream(
     spoken = [name for name in offered if name in (PROTOCOL, ATC_STREAM)]
     if not spoken:
         await websocket.accept(next(iter(offered), None))
-        page = f"{PROTOCOL} with its own page: load that again."
-        await websocket.close(WRONG_PROTOCOL, f"This server speaks {ATC_STREAM}, and {page}")
+        page = f"The service's own page speaks {PROTOCOL}: load it again."
+        await websocket.close(WRONG_PROTOCOL, f"Name the sub-protocol {ATC_STREAM}. {page}")
         return
     await websocket.accept(spoken[0])
     try:

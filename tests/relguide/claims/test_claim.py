@@ -24,7 +24,9 @@ def text_of(page: str) -> str:
 
 
 def numbers_in(said: str) -> set[float]:
-    told = {float(n.replace(",", "")) for n in re.findall(r"-?\d[\d,]*\.?\d*", said.replace("−", "-"))}
+    told = {
+        float(n.replace(",", "")) for n in re.findall(r"-?\d[\d,]*\.?\d*", said.replace("−", "-"))
+    }
     return told | {float(n) for word, n in WORDS.items() if re.search(rf"\b{word}\b", said, re.I)}
 
 

@@ -9,7 +9,7 @@ from relguide.claims.reading import read_printed, read_table
 
 JSON = '{"time_s": 1016.0, "losses": [1, 2], "named": {"hits": 9, "of": 12}, "joined": "no"}'
 TEXT = "flown\n│    20 │   1,000 │ 99.8 │\n"
-TABLE = "kind,ms,share,told\na,2.0 ms,9,\"13, 171\"\nb,−4,11,\"24, 7018\"\nc,,80,none\n"
+TABLE = 'kind,ms,share,told\na,2.0 ms,9,"13, 171"\nb,−4,11,"24, 7018"\nc,,80,none\n'
 
 
 @pytest.mark.parametrize(

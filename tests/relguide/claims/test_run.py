@@ -85,7 +85,11 @@ def test_from_a_wheel_what_needs_a_clone_does_not_run() -> None:
 
 def test_a_missing_package_is_no_failure(monkeypatch: pytest.MonkeyPatch) -> None:
     program = "import sys; sys.exit('relguide: pip install relguide[learn] brings torch.')"
-    refuse = [sys.executable, "-c", program.replace("sys.exit(", "sys.stderr.write(") + "; sys.exit(2)"]
+    refuse = [
+        sys.executable,
+        "-c",
+        program.replace("sys.exit(", "sys.stderr.write(") + "; sys.exit(2)",
+    ]
     monkeypatch.setattr(run, "arguments_of", lambda _: refuse)
     (one,) = check([CLAIM])
     assert (one.ok, one.failed, one.ran) == (False, False, False)

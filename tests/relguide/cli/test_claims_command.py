@@ -54,8 +54,6 @@ def test_where_nothing_runs_nothing_is_passed(
         (["versions"], "There is no claim versions: is version meant?"),
     ],
 )
-def test_misuse(
-    arguments: list[str], why: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_misuse(arguments: list[str], why: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["claims", *arguments]) == 2
     assert capsys.readouterr().err == f"relguide: {why}\n"
