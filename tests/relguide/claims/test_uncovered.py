@@ -1,4 +1,4 @@
-"""Whatever README and docs tell as measured is a claim, or stands on a short list with the reason."""
+"""What README and docs tell as measured is a claim, or exempt for a reason that is given."""
 
 import re
 from collections.abc import Iterator
