@@ -22,6 +22,7 @@ from relguide.cli import (
     check_command,
     claims_command,
     dataset_command,
+    figures_command,
     fly_command,
     picture_command,
     plan_command,
@@ -58,6 +59,7 @@ COMMANDS: dict[str, CommandFile] = {
     "train": train_command,
     "audit": audit_command,
     "area": area_command,
+    "figures": figures_command,
     "claims": claims_command,
     "warm-up": warm_up_command,
 }

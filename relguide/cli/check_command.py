@@ -37,7 +37,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="triplets in JSON; left out: those of the fastest plan",
     )
     add_form(parser)
-    parser.add_argument("--figure", metavar="FILE.svg", default="", help="draw both tracks")
+    parser.add_argument("--figure", metavar="FILE.svg", type=_drawing, help="draw both tracks")
 
 
 def run(chosen: argparse.Namespace) -> int:
@@ -45,6 +45,7 @@ def run(chosen: argparse.Namespace) -> int:
     table = for_people(chosen, "rich")
     if chosen.situation == chosen.triplets == "-":
         raise ValueError("Only one of the two files can come from standard input.")
+    from relguide.contract.refusal import ContractError
     from relguide.contract.triplets import regular_from_json
     from relguide.contract.wire import to_wire
     from relguide.flying.regular_card import regular_check
@@ -52,10 +53,21 @@ def run(chosen: argparse.Namespace) -> int:
     from relguide.planning.plan import plan
     from relguide.planning.regular import regular_from_trajectory, trajectory_from_regular
 
-    situation, _, _ = read_situation(chosen.situation)
+    try:
+        situation, _, _ = read_situation(chosen.situation)
+    except ContractError as refused:
+        if "triplets" in dict(refused.problems):
+            raise ValueError(
+                f"{chosen.situation} holds triplets: name the situation before them."
+            ) from None
+        raise
     if chosen.triplets:
         with open_input(chosen.triplets) as stream:
-            regular = regular_from_json(stream.read())
+            content = stream.read()
+        try:
+            regular = regular_from_json(content)
+        except ContractError as refused:
+            raise ValueError(f"{chosen.triplets}: {refused}") from None
     else:
         planned = plan(situation)
         if isinstance(planned, NoPlan):
@@ -100,3 +112,9 @@ def _failures(found: "RegularCheck") -> list[str]:
     if not found.keeps_separation:
         wrong.append("comes too close")
     return wrong or ["is not stationary"]
+
+
+def _drawing(text: str) -> str:
+    if Path(text).suffix.lower() != ".svg":
+        raise argparse.ArgumentTypeError(f"must end in .svg, not be {text}")
+    return text

@@ -7,13 +7,12 @@ all of them by these ranges and rules, and in these sentences.
 from math import inf, tau
 
 from relguide.planning.inputs import Range
+from relguide.units import KT
 
 TAS = Range(30.0, 400.0, "m/s")
 """True airspeeds."""
 BANK = Range(1.0, 60.0, "°")
 """Bank angles."""
-KNOTS_MEANT = "Did you mean knots? Then use from_display."
-"""Said of a speed above `TAS` that in knots would be one of them."""
 DEGREES_MEANT = "Did you mean degrees? Then use from_display, or math.radians."
 """Said of an angle that no aircraft flies in radians."""
 POSITION = Range(-1_000_000.0, 1_000_000.0, "m")
@@ -58,6 +57,11 @@ def too_close_a_slot(slot_distance: float, min_separation: float) -> str:
         f"must be at least min_separation ({min_separation:g} m), not {slot_distance:g} m: "
         "the slot itself would be too close."
     )
+
+
+def in_knots(tas: float) -> str:
+    """What may be meant by a speed above `TAS`, if it would be one of them in knots."""
+    return f"Did you mean knots? {tas:g} kt are {tas * KT:.1f} m/s." if TAS.admits(tas * KT) else ""
 
 
 def in_miles(distance: int) -> str:

@@ -1,4 +1,4 @@
-"""A progress bar on standard error, for what takes longer than two seconds."""
+"""A progress bar on standard error, for what takes longer than two seconds; in a log, a line."""
 
 import sys
 from collections.abc import Callable, Iterable, Iterator
@@ -14,6 +14,8 @@ PATIENCE = 2.0
 """How long nothing is shown [s]."""
 REFRESH = 0.1
 """Between two updates [s]."""
+LOGGED = 120.0
+"""Between two lines where standard error is no terminal, but a file or a log [s]."""
 LENGTH = 40
 """Of the bar [characters]."""
 
@@ -69,10 +71,11 @@ def progress_bar(title: str, *, total: float) -> Iterator[Callable[[float], None
 
 
 class _Bar:
-    """One line on a terminal, drawn in place."""
+    """One line on a terminal, drawn in place; else a line now and then."""
 
     def __init__(self, title: str, total: float, terminal: TextIO) -> None:
         self._title, self._total, self._terminal = title, total, terminal
+        self._watched = terminal.isatty()
         self._began = self._drawn = monotonic()
         self._shown = False
         self._lock = Lock()  # the clock that shows the bar is a thread of its own
@@ -80,7 +83,8 @@ class _Bar:
     @property
     def due(self) -> bool:
         """Whether it is time to draw it again."""
-        return self._shown and monotonic() - self._drawn > REFRESH
+        since = monotonic() - self._drawn
+        return self._shown and since > REFRESH if self._watched else since > LOGGED
 
     def show(self) -> None:
         """Draw it for the first time."""
@@ -95,31 +99,33 @@ class _Bar:
         if share > 0.0:
             left = (self._drawn - self._began) * (1.0 / share - 1.0)
             filled = round(share * LENGTH)
-            name += f" {'━' * filled}{'╌' * (LENGTH - filled)} {share:4.0%}, {left:.0f} s left"
+            line = f" {'━' * filled}{'╌' * (LENGTH - filled)}" if self._watched else ""
+            name += f"{line} {share:4.0%}, {left:.0f} s left"
         else:
             name += " …"
         self._write(name)
 
     def clear(self) -> None:
         """Take it away."""
-        if self._shown:
+        if self._shown and self._watched:
             self._write("")
 
     def _write(self, line: str) -> None:
         width = get_terminal_size().columns - 1  # a full line would be wrapped
+        drawn = f"\r{line[:width]:<{width}}\r{line[:width]}" if self._watched else f"{line}\n"
         with self._lock:
-            self._terminal.write(f"\r{line[:width]:<{width}}\r{line[:width]}")
+            self._terminal.write(drawn)
             self._terminal.flush()
 
 
 @contextmanager
 def _show_bar(title: str, total: float) -> Iterator[_Bar]:
-    """A bar that stays hidden until `PATIENCE` is over, and always where nobody watches.
+    """A bar that stays hidden until `PATIENCE` is over.
 
     A clock of its own shows it: the first item may be what takes so long.
     """
     bar = _Bar(title, total, sys.stderr)
-    if not sys.stderr.isatty():
+    if not sys.stderr.isatty():  # no thread: processes begin as copies of this one
         yield bar
         return
     clock = Timer(PATIENCE, bar.show)

@@ -89,7 +89,7 @@ def evaluate(regular: RegularTrajectory, situation: Situation) -> RegularEvaluat
     if any(isinstance(s, Arc) and s.turn_angle > 0.0 for s in leader.segments):
         raise ValueError(
             "The paper's regular trajectories join a leader that keeps straight; the intent of "
-            "this one turns."
+            "this one turns: leave it out."
         )
     length = regular.length(pursuer.turn_radius)
     duration = length / pursuer.tas

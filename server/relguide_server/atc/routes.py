@@ -5,7 +5,6 @@ from typing import Annotated
 
 import orjson
 from fastapi import APIRouter, Path, Query, Request, WebSocket
-from pydantic import RootModel
 from starlette.responses import Response
 
 from relguide.atc.cards import track_card
@@ -59,14 +58,6 @@ ClearanceId = Annotated[
     str, Path(description="As `POST /clearances` gave it.", examples=["9c0d71be3f2a"])
 ]
 RECORDED = ("Relguide-Recorded",)
-
-
-class AnswerBody(RootModel[ClearanceAnswer]):
-    """What the controller says."""
-
-
-class ReplyBody(RootModel[ClearanceReply]):
-    """What the crew says."""
 
 
 @router.post(
@@ -193,7 +184,7 @@ async def show_clearance(clearance_id: ClearanceId, desk: DeskOf, records: Recor
         **response(200, "What it is now.", schema_of(ClearanceModel), headers=RECORDED),
         **problem_responses(*BODY, "not-allowed", "not-found", "conflict"),
     },
-    openapi_extra=request_body(schema_of(AnswerBody), {"answer": "accepted"}),
+    openapi_extra=request_body(schema_of(ClearanceAnswer), {"answer": "accepted"}),
 )
 async def answer_clearance(
     clearance_id: ClearanceId, request: Request, desk: DeskOf, records: RecordsOf
@@ -203,7 +194,7 @@ async def answer_clearance(
     if not may_answer(request, case.owner):
         raise Refusal(403, NOT_YOURS)
     try:
-        said = parse(AnswerBody, await read_object(request)).root
+        said = parse(ClearanceAnswer, await read_object(request))
     except ContractError as error:
         raise refusal_of(error) from None
     desk.answer(case, said)
@@ -217,7 +208,7 @@ async def answer_clearance(
         **response(200, "What it is now.", schema_of(ClearanceModel), headers=RECORDED),
         **problem_responses(*BODY, "not-allowed", "not-found", "conflict"),
     },
-    openapi_extra=request_body(schema_of(ReplyBody), {"reply": "WILCO"}),
+    openapi_extra=request_body(schema_of(ClearanceReply), {"reply": "WILCO"}),
 )
 async def reply_clearance(
     clearance_id: ClearanceId, request: Request, desk: DeskOf, records: RecordsOf
@@ -226,7 +217,7 @@ async def reply_clearance(
     case = desk.find(clearance_id)
     expect_owner(request, case.owner)
     try:
-        said = parse(ReplyBody, await read_object(request)).root
+        said = parse(ClearanceReply, await read_object(request))
     except ContractError as error:
         raise refusal_of(error) from None
     await desk.reply(case, said)
@@ -281,8 +272,8 @@ async def atc_stream(
     spoken = [name for name in offered if name in (PROTOCOL, ATC_STREAM)]
     if not spoken:
         await websocket.accept(next(iter(offered), None))
-        page = f"{PROTOCOL} with its own page: load that again."
-        await websocket.close(WRONG_PROTOCOL, f"This server speaks {ATC_STREAM}, and {page}")
+        page = f"The service's own page speaks {PROTOCOL}: load it again."
+        await websocket.close(WRONG_PROTOCOL, f"Name the sub-protocol {ATC_STREAM}. {page}")
         return
     await websocket.accept(spoken[0])
     try:

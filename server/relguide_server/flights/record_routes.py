@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import orjson
 from fastapi import APIRouter, Depends, Path, Query, Request
-from pydantic import AwareDatetime, BeforeValidator, RootModel
+from pydantic import AwareDatetime, BeforeValidator
 from starlette.responses import Response, StreamingResponse
 
 from relguide.contract.bodies import situation_from_body
@@ -68,10 +68,6 @@ MEDIA = {
     "parquet": "application/vnd.apache.parquet",
 }
 """Media types of the forms of an export."""
-
-
-class NewReplay(RootModel[ReplayRequest]):
-    """Fly a recording again."""
 
 
 READING = ("not-found", "records-unavailable")
@@ -236,7 +232,7 @@ async def list_documents(
         ),
         **problem_responses(*BODY, *READING, "conflict", "too-many-flights", "mistake"),
     },
-    openapi_extra=request_body(schema_of(NewReplay), {"rate": 10.0}),
+    openapi_extra=request_body(schema_of(ReplayRequest), {"rate": 10.0}),
 )
 async def replay_flight(
     flight_id: RecordedId, request: Request, records: RecordsOf, fleet: FleetOf
@@ -245,7 +241,7 @@ async def replay_flight(
     from relguide_server.records import queries
 
     try:
-        wanted = parse(NewReplay, await read_object(request)).root
+        wanted = parse(ReplayRequest, await read_object(request))
     except ContractError as error:
         raise refusal_of(error) from None
     about = await _find(flight_id, records)

@@ -296,8 +296,8 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
     if not spoken:
         # a browser hears the reason only where one of those that it offered is taken
         await websocket.accept(next(iter(offered), None))
-        page = f"{PROTOCOL} with its own page: load that again."
-        await websocket.close(WRONG_PROTOCOL, f"This server speaks {STREAM}, and {page}")
+        page = f"The service's own page speaks {PROTOCOL}: load it again."
+        await websocket.close(WRONG_PROTOCOL, f"Name the sub-protocol {STREAM}. {page}")
         return
     await websocket.accept(spoken[0])
     if not fleet.knows(flight_id):

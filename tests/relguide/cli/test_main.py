@@ -293,13 +293,27 @@ def test_check_judges_the_fastest_plan_and_what_is_entered(run: Run) -> None:
     assert "It does not reach the slot." in out
 
 
+def test_check_says_which_file_is_wrong(run: Run) -> None:
+    situation, triplets = write(NEAR), write({"triplets": []}, "triplets.json")
+    one = write([{"epsilon": 1, "theta_deg": 60.0, "l_m": 0.0}], "one.json")
+    for arguments, sentence in (
+        ((triplets, situation), "triplets.json holds triplets: name the situation before them."),
+        ((situation, one), "one.json: This must be an object with fields, not a list."),
+        ((situation, "--figure", "plan.pdf"), "--figure: must end in .svg, not be plan.pdf"),
+    ):
+        code, out, err = run("check", *arguments)
+        assert (code, out) == (2, "")
+        assert sentence in err
+    assert not Path("plan.pdf").exists()
+
+
 def test_check_without_a_plan_and_with_a_leader_that_turns(run: Run) -> None:
     code, out, err = run("check", write({**NEAR, "leader": {**NEAR["leader"], "tas_mps": 390}}))
     assert (code, out) == (1, "")
     assert "cannot be caught" in err
     code, out, err = run("check", write(BODY))
     assert (code, out) == (2, "")
-    assert "the intent of this one turns" in err
+    assert "the intent of this one turns: leave it out." in err
 
 
 def test_what_may_be_compiled_is_what_the_steps_are_named_by() -> None:

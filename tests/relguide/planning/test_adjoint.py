@@ -156,3 +156,11 @@ def test_a_boundary_arc_has_a_multiplier_above_0() -> None:
     # a boundary arc's arcs swing about the mean turn rate, so differences over one are rough
     assert np.median(multipliers) > 0.0
     assert min(multipliers) == pytest.approx(boundary_arc.least_multiplier, rel=0.1)
+
+
+def test_a_history_is_shown_by_its_columns() -> None:
+    """Not by hundreds of numbers, which would hide what a report finds."""
+    shown = repr(check(find_plan(RIDING), RIDING, samples=500))
+    assert "history=AdjointHistory(6" in shown
+    assert "times: times, hamiltonian, separation, bearing, switching)" in shown
+    assert len(shown) < 2_000

@@ -62,6 +62,17 @@ def test_a_file_gets_no_bar(
     assert capsys.readouterr().err == ""
 
 
+def test_a_log_gets_a_line_now_and_then(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(progress, "LOGGED", 0.1)
+    for _ in show_progress(range(1, 41), title="auditing", total=40, done=float):
+        sleep(0.02)
+    lines = capsys.readouterr().err.splitlines()
+    assert 2 <= len(lines) <= 10
+    assert all(line.startswith("auditing ") and line.endswith(" s left") for line in lines)
+
+
 def test_it_says_how_far_and_is_taken_away(monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = _at_a_terminal(monkeypatch)
     monkeypatch.setattr(progress, "PATIENCE", 0.0)

@@ -88,7 +88,7 @@ def test_degrees_of_bank_and_knots_are_asked_about() -> None:
     ):
         replace(PURSUER, max_bank=25)
     with pytest.raises(
-        ValueError, match=r"not 465 m/s\. Did you mean knots\? Then use from_display"
+        ValueError, match=r"not 465 m/s\. Did you mean knots\? 465 kt are 239\.2 m/s\."
     ):
         replace(PURSUER, tas=465)
     for unclear in ({"tas": 29.0}, {"tas": 1e4}, {"max_bank": 1.2}, {"max_bank": 61.0}):

@@ -13,7 +13,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
 from relguide.contract.messages import Tick
-from relguide.contract.protocol import PROTOCOL
+from relguide.contract.protocol import PROTOCOL, STREAM
 from relguide.contract.refusal import parse
 from relguide.flying.documents import Document
 from relguide.flying.orders import Command
@@ -138,16 +138,18 @@ def test_a_page_of_another_version_is_refused_with_a_reason(address: str, protoc
 
 
 def test_no_protocol_at_all_is_refused_too(address: str) -> None:
-    async def dial() -> int:
+    async def dial() -> tuple[int | None, str | None]:
         url = f"ws://{address}/api/v1/flights/{flight_id}/stream"
         async with connect(url, proxy=None) as socket:
             with pytest.raises(ConnectionClosed):
                 await socket.recv()
-            assert socket.close_code is not None
-            return socket.close_code
+            return socket.close_code, socket.close_reason
 
     flight_id = start(address)
-    assert asyncio.run(dial()) == 4400
+    code, reason = asyncio.run(dial())
+    assert code == 4400
+    assert reason is not None
+    assert reason.startswith(f"Name the sub-protocol {STREAM}. ")
 
 
 def test_an_unknown_flight_is_refused_with_a_reason(address: str) -> None:
