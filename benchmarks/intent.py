@@ -2,7 +2,7 @@
 
 Fig. 6 is flown for many times of the leader's turn: with its intent known and unknown, and by the
 baselines, which do not plan. All figures go to benchmarks/results/intent.csv, some into
-docs/flight.md, and docs/figures/intent.svg shows them.
+docs/flight.md, and `relguide figures intent` draws them.
 """
 
 import argparse
@@ -12,17 +12,15 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from itertools import product
 from os import cpu_count
-from pathlib import Path
 from statistics import mean
 from typing import NamedTuple
 
-from matplotlib.axes import Axes
-
-from benchmarks.drawings import BLUE, GREEN, ORANGE, PALE, PURPLE, figure
 from benchmarks.options import positive
-from benchmarks.page import DOCS, FOLDER, with_block
+from benchmarks.page import DOCS, GALLERY, with_block
 from benchmarks.tables import Cells, markdown, write_table
 from relguide import plan
+from relguide.figures.drawn import as_svg, draw
+from relguide.figures.ours.intent import FIGURE
 from relguide.flying.documents import FlightEnded
 from relguide.flying.flight import fly
 from relguide.flying.guidances import Guidance
@@ -37,7 +35,7 @@ TURNS: tuple[Second, ...] = tuple(
 """When the leader begins its turn [s]."""
 NAME = "intent.csv"
 PAGE, PART = DOCS / "flight.md", "intent"
-PICTURE = FOLDER / "intent.svg"
+PICTURE = GALLERY / f"{FIGURE.name}.svg"
 
 
 class Way(NamedTuple):
@@ -46,19 +44,15 @@ class Way(NamedTuple):
     name: str
     guidance: Guidance
     intent_known: bool
-    colour: str
-    dashes: str
-    mark: str
 
 
 WAYS = (
-    Way("intent known", "relguide", True, BLUE, "-", "o"),
-    Way("intent unknown", "relguide", False, ORANGE, "-", "s"),
-    Way("chasing the slot", "slot_pursuit", False, GREEN, "--", "^"),
-    Way("proportional navigation", "pronav", False, PURPLE, "-.", "d"),
-    Way("along the leader's trail", "trail", False, PALE, ":", "v"),
+    Way("intent known", "relguide", True),
+    Way("intent unknown", "relguide", False),
+    Way("chasing the slot", "slot_pursuit", False),
+    Way("proportional navigation", "pronav", False),
+    Way("along the leader's trail", "trail", False),
 )
-"""Told apart in grey by lines and marks."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,7 +88,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--processes", type=positive, default=cpu_count() or 1)
     outcomes = list(fly_all(parser.parse_args(arguments).processes))
     write_table(NAME, HEADINGS, [_cells(outcome) for outcome in outcomes])
-    draw(outcomes, PICTURE)
+    PICTURE.write_bytes(as_svg(draw(FIGURE)))
     shown = markdown(SHOWN, summary(outcomes))
     PAGE.write_text(with_block(PAGE.read_text("utf-8"), PART, shown), "utf-8")
     print(shown)  # noqa: T201
@@ -165,42 +159,6 @@ def _line(way: Way, flown: Sequence[Outcome], known: dict[Second, Second]) -> li
         f"{max(one.swing for one in flown) / DEG:.0f}°",
         f"{min(one.least_share for one in flown):.3f}",
     ]
-
-
-def draw(outcomes: Sequence[Outcome], file: Path) -> None:
-    """How long each flies, and how much it turns, by when the leader turns."""
-    with figure(file) as (_, (left, right)):
-        left.set_title("Joins after")
-        left.set_ylabel("[s]")
-        right.set_title("Heading swing until joined")
-        right.set_ylabel("[°]")
-        for way in WAYS:
-            flown = [one for one in outcomes if one.way == way and one.joined]
-            _line_of(left, flown, [one.join_time for one in flown])
-            _line_of(right, flown, [one.swing / DEG for one in flown])
-        hollow = "hollow: joined\nbefore the turn"
-        left.annotate(hollow, (890.0, 795.0), ha="right", fontsize=8, color=ORANGE)
-        for axes in (left, right):
-            axes.set_xlabel("the leader turns at [s]")
-            axes.set_xlim(0.0, 900.0)
-        right.set_ylim(0.0, 290.0)  # the names of the ways stand on top
-        right.legend(frameon=False, fontsize=8, loc="upper left")
-
-
-def _line_of(axes: Axes, flown: Sequence[Outcome], values: Sequence[float]) -> None:
-    """A line for those joined after the turn, hollow marks for those before."""
-    way = flown[0].way
-    for before, style in ((False, way.dashes), (True, "none")):
-        points = [
-            (one.turns_at, value)
-            for one, value in zip(flown, values, strict=True)
-            if one.joined_before == before
-        ]
-        axes.plot(
-            [x for x, _ in points], [y for _, y in points], way.mark, ls=style, color=way.colour,
-            mfc="white" if before else way.colour, ms=4, lw=1.2,
-            label=None if before else way.name,
-        )  # fmt: skip
 
 
 if __name__ == "__main__":

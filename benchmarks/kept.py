@@ -7,15 +7,15 @@ show the same run.
 import sys
 from pathlib import Path
 
-import numpy as np
 from rich.console import Console
 
 from benchmarks import drawings
 from benchmarks.cases import limited_cases
-from benchmarks.drawings import Spread
-from benchmarks.page import FOLDER, PAGE, PICTURES, RESULTS, with_block
+from benchmarks.page import FOLDER, GALLERY, PAGE, PICTURE, RESULTS, with_block
 from benchmarks.sweep import sweep
 from benchmarks.tables import Cells, columns, markdown, read_table
+from relguide.figures.drawn import as_svg, draw
+from relguide.figures.ours import planners, separation
 
 WITHOUT, WITH, BATCHES = "without_limit.csv", "with_limit.csv", "batches.csv"
 COST = "cost_of_limit.csv"
@@ -23,17 +23,14 @@ EXAMPLE = "R061"
 """The golden case that is drawn: one contact, four basins."""
 BEARINGS = 721
 """Of the sweep: every half degree."""
-MICRO, MILLI = 1e-6, 1e-3
-OURS = ("kernel", "plan()")
-"""How the names of our own rows begin."""
 
 
 def main() -> int:
     """Draw and show."""
     FOLDER.mkdir(exist_ok=True)
-    contact, distributions = (FOLDER / name for name in PICTURES)
-    draw_example(contact)
-    draw_distributions(distributions)
+    draw_example(FOLDER / PICTURE)
+    for figure in (planners.FIGURE, separation.FIGURE):
+        (GALLERY / f"{figure.name}.svg").write_bytes(as_svg(draw(figure)))
     PAGE.write_text(with_block(PAGE.read_text(), "measured", block()))
     Console(stderr=True).print(f"Drawn into {FOLDER}, shown in {PAGE}: look at both.")
     return 0
@@ -46,25 +43,6 @@ def draw_example(file: Path) -> None:
     with drawings.figure(file) as (_, (left, right)):
         drawings.seen_from_leader(left, swept)
         drawings.arrival_by_bearing(right, swept)
-
-
-def draw_distributions(file: Path) -> None:
-    """What the limit costs, and what answers take."""
-    (_, *kinds), cells = read_table(COST)
-    quantiles = np.array(cells, float)
-    costs = {kind: quantiles[:, 1 + i] for i, kind in enumerate(kinds)}
-    with drawings.figure(file) as (_, (left, right)):
-        drawings.cost_of_the_limit(left, quantiles[:, 0], costs)
-        drawings.times(right, spreads())
-
-
-def spreads() -> list[Spread]:
-    """CPU times of answers [s] as the tables have them."""
-    return [
-        Spread(name, name.startswith(OURS), unit * float(median), unit * float(late))
-        for file, unit in ((WITHOUT, MICRO), (WITH, MILLI))
-        for name, _, median, late, *_ in read_table(file)[1]
-    ]
 
 
 def block(folder: Path = RESULTS) -> str:

@@ -5,7 +5,7 @@ from pathlib import Path
 DOCS = Path(__file__).parents[1] / "docs"
 RESULTS = Path(__file__).parent / "results"
 PAGE, FOLDER = DOCS / "planner.md", DOCS / "figures"
-PICTURES = ("contact.svg", "distributions.svg")
+PICTURE, GALLERY = "contact.svg", FOLDER / "gallery"
 COMMAND = "make planner-figures"
 """Makes the tables and pictures of docs/planner.md anew."""
 

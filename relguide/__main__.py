@@ -20,7 +20,9 @@ from relguide.cli import (
     audit_command,
     campaign_command,
     check_command,
+    claims_command,
     dataset_command,
+    figures_command,
     fly_command,
     picture_command,
     plan_command,
@@ -57,6 +59,8 @@ COMMANDS: dict[str, CommandFile] = {
     "train": train_command,
     "audit": audit_command,
     "area": area_command,
+    "figures": figures_command,
+    "claims": claims_command,
     "warm-up": warm_up_command,
 }
 

@@ -1,7 +1,11 @@
 """Pages of Markdown, read for their code."""
 
+import io
 import re
+from collections.abc import Mapping
+from contextlib import redirect_stdout
 from pathlib import Path
+from types import MappingProxyType
 
 ROOT = Path(__file__).parents[1]
 
@@ -9,6 +13,45 @@ ROOT = Path(__file__).parents[1]
 def blocks(page: str, language: str) -> list[str]:
     """The code of a page in one language."""
     return re.findall(rf"^```{language}\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+
+
+def fenced(page: str) -> list[tuple[str, str]]:
+    """All code of a page in its order, each with its language."""
+    return re.findall(r"^```([\w-]*)\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+
+
+def run_page(
+    page: Path, folder: Path, instead: Mapping[str, str] = MappingProxyType({})
+) -> list[tuple[str, str]]:
+    """Run the Python of a page from top to bottom in a folder.
+
+    A block that begins with `# NAME.toml` is put there as that file.
+
+    Args:
+        page: to run.
+        folder: the process works there already.
+        instead: what stands in place of words of the page.
+
+    Returns:
+        What each block printed, and the text that the page shows behind it.
+    """
+    assert Path.cwd() == folder
+    said: list[tuple[str, str]] = []
+    names: dict[str, object] = {}
+    for language, code in fenced(page.read_text()):
+        file = re.match(r"# (\w+\.toml)\n", code)
+        if language == "python":
+            printed = io.StringIO()
+            for word, other in instead.items():
+                code = code.replace(word, other)
+            with redirect_stdout(printed):
+                exec(compile(code, page.name, "exec"), names)
+            said.append((printed.getvalue(), ""))
+        elif language == "text":
+            said[-1] = (said[-1][0], code)
+        elif file:
+            (folder / file[1]).write_text(code)
+    return said
 
 
 def pages() -> list[Path]:

@@ -9,15 +9,16 @@ from hypothesis import given
 
 from benchmarks import draws, kept, network
 from benchmarks.cases import turning_cases, unlimited_cases
-from benchmarks.drawings import time_in_words
 from benchmarks.exhaustive import least_time
 from benchmarks.limit import main, plan_twice
 from benchmarks.network_batch import as_row
 from benchmarks.network_rows import BY_NETWORK, answer_rows
-from benchmarks.page import COMMAND, FOLDER, PAGE, PICTURES, RESULTS, with_block
+from benchmarks.page import COMMAND, FOLDER, GALLERY, PAGE, PICTURE, RESULTS, with_block
 from benchmarks.starts import guesses
 from benchmarks.tables import read_table, write_table
 from relguide import NoPlan
+from relguide.figures.ours.planners import time_in_words
+from relguide.figures.results import read_results
 from relguide.kernels.base.angles import FULL_TURN_SLACK
 from relguide.kernels.base.records import Pose
 from relguide.kernels.words.extremals import MAX_ROWS, solve
@@ -37,9 +38,8 @@ def test_the_page_shows_the_pictures_and_says_how_they_are_made() -> None:
     page = PAGE.read_text()
     assert COMMAND in page
     assert f"\n{COMMAND.removeprefix('make ')}:" in (ROOT / "Makefile").read_text()
-    for name in PICTURES:
-        picture = FOLDER / name
-        assert f"]({FOLDER.name}/{name})" in page
+    for picture in (FOLDER / PICTURE, GALLERY / "separation.svg", GALLERY / "planners.svg"):
+        assert f"]({picture.relative_to(PAGE.parent).as_posix()})" in page
         assert "</svg>" in picture.read_text()
     # what is measured again takes the place of what was measured before
     again = with_block(with_block(page, "measured", "old"), "measured", "| new |")
@@ -50,13 +50,17 @@ def test_the_page_shows_the_pictures_and_says_how_they_are_made() -> None:
 def test_page_and_picture_show_the_same_run() -> None:
     page = PAGE.read_text()
     assert with_block(page, "measured", kept.block()) == page
-    picture = (FOLDER / "distributions.svg").read_text()
-    for spread in kept.spreads():
-        # matplotlib draws letters as paths, and says in a comment what they spell
-        assert f"<!-- {time_in_words(spread.median)} -->" in picture, spread.name
+    planners = (GALLERY / "planners.svg").read_text()
+    for name, column, unit in (
+        ("without_limit.csv", "median µs", 1e-6),
+        ("with_limit.csv", "median ms", 1e-3),
+    ):
+        for row in read_results(name):
+            assert f">{time_in_words(unit * float(row[column]))}</text>" in planners, row["name"]
     _, cells = read_table(kept.COST)
     (medians,) = [costs for share, *costs in cells if share == "50"]
-    assert all(f"<!-- {float(median):.0f} s -->" in picture for median in medians)
+    gallery = (PAGE.parent / "gallery.md").read_text()
+    assert all(f"{float(median):.0f} s where R" in gallery for median in medians)
 
 
 def test_tables_are_kept_as_numbers(tmp_path: Path) -> None:

@@ -2,7 +2,13 @@
 
 import re
 
-from tools.notices import NOTICES, bundled_notices, imports_of_page, installed_notices
+from tools.notices import (
+    NOTICES,
+    bundled_notices,
+    guide_notices,
+    imports_of_page,
+    installed_notices,
+)
 
 SHOWN = NOTICES.read_text("utf-8")
 RENEW = "python -m tools.notices writes the file anew"
@@ -30,3 +36,10 @@ def test_the_data_of_the_ground_have_theirs() -> None:
     text = section.partition("\n##")[0]
     for said in ("Natural Earth", "world-atlas 2.0.2", "airportsdata", "Copyright", "AS IS"):
         assert said in text, RENEW
+
+
+def test_what_the_guide_holds_has_the_text_of_its_licence() -> None:
+    _, _, section = SHOWN.partition("\n## In the guide\n")
+    text = "".join(section.partition("\n## ")[0].split())
+    for name, _, _, file in guide_notices():
+        assert "".join(file.read_text("utf-8").split()) in text, f"{name}: {RENEW}"

@@ -1,5 +1,6 @@
 """What the pages show is what happens, and what they name is there."""
 
+import ast
 import io
 import json
 import re
@@ -7,6 +8,7 @@ import shlex
 import xml.etree.ElementTree as ET
 from contextlib import redirect_stdout
 from dataclasses import replace
+from importlib import import_module
 from math import degrees
 from pathlib import Path
 
@@ -14,20 +16,22 @@ import pytest
 from relguide_server.app import create_app
 from relguide_server.settings import ServiceSettings
 
+import relguide
 from relguide import Plan, plan
+from relguide.__main__ import _parse as understood
 from relguide.__main__ import main
 from relguide.contract.answers import answer
 from relguide.contract.bodies import situation_from_json
 from relguide.flying.documents import FlightEnded
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
-from tests.pages import ROOT, blocks, pages
+from tests.pages import ROOT, blocks, fenced, pages
 from tests.server.serving import serve
 
 DOCS = ROOT / "docs"
-SERVICE, COMMANDS, FLIGHT, NETWORK, ERRATA, MAP = (
+SERVICE, COMMANDS, FLIGHT, NETWORK, PAPER, MAP = (
     (DOCS / f"{name}.md").read_text()
-    for name in ("service", "commands", "flight", "network", "errata", "architecture")
+    for name in ("service", "commands", "flight", "network", "paper", "architecture")
 )
 
 
@@ -86,7 +90,7 @@ def _rounded(said: object) -> object:
 
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
     listed = {arguments[0] for arguments in shown_commands()}
-    planning, learning = {"plan", "check"}, {"dataset", "area", "train", "audit"}
+    planning, learning = {"plan", "check"}, {"dataset", "area", "figures", "train", "audit"}
     assert (
         listed == {"fly", "replay", "picture", "campaign", "serve", "warm-up"} | planning | learning
     )
@@ -210,13 +214,75 @@ TESTED = ROOT / "web" / "test"
 """… without what npm installs."""
 
 
-def test_errata_name_tests_that_exist() -> None:
-    named = re.findall(r"`(\w+\.py)::(\w+)`", ERRATA)
-    assert len(named) == 13
-    for file, name in named:
-        found = list((ROOT / "tests").rglob(file))
-        assert found, file
-        assert any(f"def {name}(" in path.read_text() for path in found), f"{file}::{name}"
+PAPER_ROWS = [
+    [cell.strip() for cell in line.strip("|").split("|")]
+    for line in PAPER.splitlines()
+    if line.startswith(("| (", "| Fig", "| after", "| section", "| ε"))
+]
+
+
+def test_every_equation_and_figure_of_the_paper_has_a_row() -> None:
+    named = [name for row in PAPER_ROWS for name in row[0].split(", ")]
+    due = [f"({number})" for number in range(1, 25)]
+    due += [f"Fig. {number}" for number in ("1", "2", "3", "4", "5", "6a", "6b", "7")]
+    assert {name for name in named if name[0] in "(F"} == set(due)
+    assert len(named) == len(set(named))
+
+
+@pytest.mark.parametrize("row", PAPER_ROWS, ids=lambda row: row[0])
+def test_a_row_of_the_paper_names_code_and_tests_that_exist(row: list[str]) -> None:
+    what, code, corrected, test = row
+    assert corrected
+    file, name = re.fullmatch(r"`(relguide/[\w/]+\.py)::(\w+)`", code).groups()  # type: ignore[union-attr]
+    source = (ROOT / file).read_text()
+    assert re.search(rf"^(?:def|class) {name}\b", source, re.MULTILINE)
+    said = {int(number) for number in re.findall(r"\((\d{1,2})\)", source)}
+    for first, last in re.findall(r"\((\d+)\)–\((\d+)\)", source):
+        said.update(range(int(first), int(last)))
+    assert not what.startswith("(") or {int(n) for n in re.findall(r"\d+", what)} <= said
+    file, name = re.fullmatch(r"`(test_\w+\.py)::(test_\w+)`", test).groups()  # type: ignore[union-attr]
+    assert any(f"def {name}(" in found.read_text() for found in (ROOT / "tests").rglob(file))
+
+
+@pytest.mark.parametrize("page", pages(), ids=lambda page: page.name)
+def test_commands_of_all_pages_are_understood(page: Path) -> None:
+    blocks = [code for name, code in fenced(page.read_text()) if name in ("sh", "")]
+    for line in "".join(blocks).replace("\\\n", "").splitlines():
+        for command in re.split(r"&&|\|", line):
+            words = shlex.split(command, comments=True) if "relguide" in command else []
+            if words and words[0] in ("relguide", ".venv/bin/relguide"):
+                assert understood(words[1:]).command == words[1]
+    for module in re.findall(r"python -m ([\w.]+)", page.read_text()):
+        path = ROOT / module.replace(".", "/")
+        found = path.with_suffix(".py").exists() or (path / "__main__.py").exists()
+        assert found or module in ("pip", "pytest", "venv"), module
+
+
+@pytest.mark.parametrize("page", pages(), ids=lambda page: page.name)
+def test_python_of_all_pages_uses_names_that_exist(page: Path) -> None:
+    """Whether or not another test runs it."""
+    for code in blocks(page.read_text(), "python"):
+        tree = ast.parse(code)
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ImportFrom):
+                module = import_module(str(node.module))
+                assert all(hasattr(module, name.name) for name in node.names), code
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+                assert node.value.id != "rg" or hasattr(relguide, node.attr), node.attr
+
+
+@pytest.mark.parametrize("page", pages(), ids=lambda page: page.name)
+def test_pictures_are_pictures(page: Path) -> None:
+    for name in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", page.read_text()):
+        begins = (page.parent / name).read_bytes()[:256]
+        match Path(name).suffix:
+            case ".svg":
+                assert b"<svg" in begins, name
+            case ".png":
+                assert begins.startswith(b"\x89PNG"), name
+            case kind:
+                assert kind == ".webp", name
+                assert begins.startswith(b"RIFF"), name
 
 
 @pytest.mark.parametrize("figure", sorted(DOCS.rglob("*.svg")), ids=lambda figure: figure.name)

@@ -1,5 +1,6 @@
 """The paper, equation by equation: what is followed, and what is followed in its corrected form."""
 
+from dataclasses import replace
 from math import atan2, cos, hypot, pi, sin
 
 import numpy as np
@@ -12,8 +13,10 @@ from relguide import (
     Arc,
     FlyStraight,
     Leader,
+    NoPlan,
     Plan,
     Pursuer,
+    Reason,
     Situation,
     Straight,
     Trajectory,
@@ -21,6 +24,7 @@ from relguide import (
     certify,
     plan,
 )
+from relguide.kernels.base.costate import hamiltonian
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.separation.approach import closest_of_straights
 from relguide.units import DEG, G0, NM
@@ -76,9 +80,45 @@ def test_eq_7(situation: Situation) -> None:
     assert cos(bearing - atan2(east, north)) == pytest.approx(1.0, abs=1e-9)
 
 
+@given(situation=situations(reach=60_000.0))
+def test_eq_4(situation: Situation) -> None:
+    """No turn of a plan is tighter than φ_max allows, and an arc without the limit is as tight."""
+    answer = plan(situation)
+    if not isinstance(answer, Plan):
+        return
+    most = turn_rate(situation.pursuer.tas, situation.pursuer.max_bank)
+    assert all(abs(rate) <= most * (1 + 1e-9) for rate in answer.trajectory.turn_rates())
+    for _, rate in answer.trajectory.bends():
+        assert abs(rate) <= most * (1 + 1e-9)
+
+
+@given(situation=situations(reach=60_000.0), nearer=numbers(0.0, 0.999))
+def test_eq_6(situation: Situation, nearer: float) -> None:
+    """A plan begins where the pursuer is; closer than d_min there is none."""
+    pursuer, leader = situation.pursuer, situation.leader
+    answer = plan(situation)
+    if isinstance(answer, Plan):
+        begin = answer.trajectory.pose_at(0.0)
+        assert (begin.x, begin.y) == (pursuer.x, pursuer.y)
+        assert cos(begin.heading - pursuer.heading) == pytest.approx(1.0, abs=1e-12)
+    inside = replace(pursuer, x=leader.x + nearer * situation.min_separation, y=leader.y)
+    refused = plan(replace(situation, pursuer=inside))
+    if situation.min_separation > 1.0:
+        assert isinstance(refused, NoPlan)
+        assert refused.reason is Reason.SEPARATION_ALREADY_LOST
+
+
 def test_eq_8() -> None:
     assert turn_rate(230.0, 25 * DEG) == pytest.approx(G0 / 230.0 * np.tan(25 * DEG))
     assert turn_rate(230.0, -25 * DEG) < 0.0  # positive bank turns right: sign φ = −ε
+
+
+@given(r=numbers(-0.1, 0.1), lam_psi=numbers(-1e3, 1e3), brg=numbers(-pi, pi), psi=numbers(-pi, pi))
+def test_eq_15(r: float, lam_psi: float, brg: float, psi: float) -> None:
+    """H is what it is without a turn, and λ_ψ r."""
+    args = (12_000.0, brg, psi, 2e-3, -30.0, lam_psi)
+    turning, straight = (hamiltonian(*args, rate, 230.0, 200.0, 1.0) for rate in (r, 0.0))
+    assert turning - straight == pytest.approx(lam_psi * r, rel=1e-9, abs=1e-9)
 
 
 def test_eq_17_sums_lengths_and_turns() -> None:

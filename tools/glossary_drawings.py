@@ -72,10 +72,14 @@ def _situation_drawing() -> str:
     meets = path.duration
     behind = -situation.slot_distance
     over_there = 200.0 * meets
-    page = _Page(left=-31e3, right=19e3, low=-19e3, high=over_there + 8e3, width=330)
+    page = _Page(left=-31e3, right=19e3, low=-19e3, high=over_there + 12e3, width=330)
     page.line([(0.0, behind), (0.0, over_there)], LEADER, "leader's route", at=0.95, dx=8)
-    page.circle((0.0, 0.0), situation.min_separation, LIMIT)
-    page.text((9.5e3, 3.4e3), "d = d_min", LIMIT)
+    # both now and at T: the plan keeps clear of the circle that moves with the leader
+    page.circle((0.0, 0.0), situation.min_separation, LIMIT, passed=True)
+    page.circle((0.0, over_there), situation.min_separation, LIMIT)
+    page.text((6.3e3, 8.4e3), "d_min now", LIMIT)
+    page.text((6.3e3, over_there + 6.9e3), "d_min at T", LIMIT)
+    page.scale((-29e3, over_there + 9e3), 10e3, "10 km")
     page.line([(pursuer.x, pursuer.y), (0.0, 0.0)], PALE, dashed=True)
     page.text((-15.0e3, -8.3e3), "d", PALE)
     page.line(_fly(path), PURSUER, "plan", at=0.8, dx=-34)
@@ -227,13 +231,23 @@ class _Page:
             (ax, ay), (bx, by) = points[before], points[here]
             self.text((ax + share * (bx - ax), ay + share * (by - ay)), words, colour, dx, dy)
 
-    def circle(self, centre: Point, radius: float, colour: str) -> None:
-        """The limit."""
+    def circle(self, centre: Point, radius: float, colour: str, *, passed: bool = False) -> None:
+        """The limit; dashed and empty where it was before."""
         x, y = self._at(centre)
-        self._parts.append(
-            f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius * self._scale:.1f}" fill="{colour}" '
-            f'fill-opacity="0.10" stroke="{colour}"/>'
+        look = (
+            'fill="none" stroke-dasharray="4 3"'
+            if passed
+            else f'fill="{colour}" fill-opacity="0.10"'
         )
+        self._parts.append(
+            f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius * self._scale:.1f}" {look} '
+            f'stroke="{colour}"/>'
+        )
+
+    def scale(self, point: Point, length: float, words: str) -> None:
+        """A bar of that length, and how long it is."""
+        self.line([point, (point[0] + length, point[1])], INK, wide=True)
+        self.text(point, words, INK, 0.0, 16.0)
 
     def text(self, point: Point, words: str, colour: str, dx: float = 0.0, dy: float = 0.0) -> None:
         """Words that begin at a point."""

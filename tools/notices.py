@@ -34,6 +34,12 @@ GROUND = """
 
 `earth.npz` holds coast lines and airports; `tools/earth.py` makes it of these data.
 """
+GUIDE = """
+## In the guide
+
+The guide that the wheel and the container hold is built by Zensical, whose scripts and styles are
+in it, with icons of Lucide.
+"""
 PYTHON = """
 ## Beside it in Python
 
@@ -74,6 +80,9 @@ def main() -> None:
         shown = _quoted(MODULES / notice.name / "LICENSE")
         lines.append(f"\n### {notice.name}\n\n{notice.licence}, <{notice.home}>\n\n{shown}\n")
     lines += [GROUND, "\n", _quoted(EARTH), "\n"]
+    lines.append(GUIDE)
+    for name, licence, home, file in guide_notices():
+        lines.append(f"\n### {name}\n\n{licence}, <{home}>\n\n{_quoted(file)}\n")
     lines.append(PYTHON)
     lines += [f"| {n.name} | {n.licence} | <{n.home}> |\n" for n in installed_notices()]
     NOTICES.write_text("".join(lines), "utf-8")
@@ -81,6 +90,18 @@ def main() -> None:
 
 def _quoted(licence: Path) -> str:
     return indent(licence.read_text("utf-8").strip(), "    ", lambda line: bool(line.strip()))
+
+
+def guide_notices() -> list[tuple[str, str, str, Path]]:
+    """What the guide's site holds of others: name, licence, home, and the text of the licence."""
+    about, home = distribution("zensical"), "https://zensical.org"
+    templates = Path(str(about.locate_file("zensical/templates")))
+    (own,) = [file for file in about.files or () if file.match("licenses/LICENSE.md")]
+    return [
+        ("zensical", "MIT", home, Path(str(about.locate_file(own)))),
+        ("In its scripts", "As named", home, templates / "assets/javascripts/LICENSE"),
+        ("lucide", "ISC", "https://lucide.dev", templates / ".icons/lucide/LICENSE"),
+    ]
 
 
 def installed_notices() -> list[Notice]:

@@ -42,6 +42,12 @@ def record(
     The file is opened when the first document is asked for, and complete once the last one has
     been taken; a name that ends in `.gz` compresses it.
 
+    Examples:
+        >>> flown = rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0)
+        >>> *_, end = rg.record(flown, "flight.jsonl")
+        >>> end.kind
+        'flight_ended'
+
     Args:
         documents: of a flight.
         file: where they are written.

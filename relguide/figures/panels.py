@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from relguide.figures.area_figure import FAINT, INK
+from relguide.figures.drawn import Drawn, as_svg
+from relguide.figures.style import house_style
 from relguide.learn.training.shares import Share
 from relguide.learn.words.branch_labels import Floats
 
@@ -29,12 +31,9 @@ def write_figures(draw: Mapping[str, "Callable[[], Figure]"], folder: Path) -> l
         draw: what draws each, by the name of its file.
         folder: where to; it must exist.
     """
-    from matplotlib import rc_context
-
-    # the same data give the same file, letters stay letters
-    with rc_context({"svg.hashsalt": "relguide", "svg.fonttype": "none", "font.size": 9}):
+    with house_style():
         for name, figure in draw.items():
-            figure().savefig(folder / name, metadata={"Date": None})
+            (folder / name).write_bytes(as_svg(Drawn(figure(), "")))
     return [folder / name for name in draw]
 
 

@@ -4,7 +4,7 @@ import csv
 from pathlib import Path
 
 HERE = Path(__file__).parent
-FOLDERS = (HERE / "results", HERE.parents[1] / "benchmarks" / "results")
+FOLDERS = (HERE / "tables", HERE.parents[1] / "benchmarks" / "results")
 """Where they are in the wheel when installed, in the source tree otherwise."""
 
 

@@ -351,6 +351,10 @@ def known_airframes() -> tuple[str, ...]:
 def airframe(designator: str) -> Airframe:
     """A type that comes with the library.
 
+    Examples:
+        >>> rg.airframe("A306").name
+        'Airbus A300-600R'
+
     Raises:
         ValueError: for any other, naming those there are.
     """

@@ -189,6 +189,11 @@ def fly(
 ) -> Iterator[Document]:
     """Fly a scenario and say what happens, in order of time.
 
+    Examples:
+        >>> *_, end = rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0)
+        >>> end.message
+        'Joined, and followed for 120 s.'
+
     Args:
         scenario: what to fly.
         planner: the exact one if left out. It is asked at engagement, whenever the leader does

@@ -66,6 +66,11 @@ def queue_up(
 ) -> tuple[Link, ...]:
     """Links that put followers behind a leader, each behind the one before.
 
+    Examples:
+        >>> links = rg.queue_up(("B", "C"), "A", slot_distance=10e3, min_separation=9e3)
+        >>> [(link.pursuer, link.leader) for link in links]
+        [('B', 'A'), ('C', 'B')]
+
     Args:
         followers: idents of guided aircraft, the one next to the leader first.
         leader: ident of the head.

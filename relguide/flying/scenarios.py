@@ -177,6 +177,10 @@ def scenario_behind(
 def scenario(name: str) -> Scenario:
     """The scenario of that name.
 
+    Examples:
+        >>> rg.scenario("fig_6a").title
+        "Fig. 6a: the leader's intent is unknown"
+
     Raises:
         ValueError: if there is no such scenario, or its data is not installed, in a sentence.
     """
@@ -197,6 +201,10 @@ def own_scenario(
     situation: Situation, *, intent_known: bool = True, isa_deviation: float = 0.0
 ) -> Scenario:
     """A situation of one's own, flown by an A300 at the level nearest to FL310 where it can.
+
+    Examples:
+        >>> rg.own_scenario(rg.scenario("fig_6b").situation).altitude  # [m]
+        9449.0
 
     Args:
         situation: where both begin, and the leader's intent.

@@ -182,6 +182,13 @@ def with_crew(
 ) -> Iterator[Document]:
     """A flight in which a crew follows its script.
 
+    Examples:
+        >>> from functools import partial
+        >>> engage = rg.SetEngagement(engagement="engaged")
+        >>> script = [rg.CrewOrder(command=engage, on="proposed", after=10.0)]
+        >>> flown = partial(rg.fly, rg.scenario("fig_6b"), rg.plan, engagement="designated")
+        >>> documents = rg.with_crew(script, flown)
+
     Args:
         script: what it orders, and when.
         flown: `fly`, or `simulate`, with all but its commands.

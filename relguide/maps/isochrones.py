@@ -143,6 +143,10 @@ def isochrones(
 ) -> Isochrones:
     """Lines of equal time-to-converge, and regions of equal word.
 
+    Examples:
+        >>> grid = rg.Grid(x=0.0, y=0.0, columns=9, rows=9)
+        >>> lines = rg.isochrones(rg.scenario("fig_6b").situation, grid, levels=(600.0, 900.0))
+
     Args:
         situation: all but the pursuer's place counts, and the others, who are left out.
         grid: where to look; 160 × 120 km round the leader if left out.

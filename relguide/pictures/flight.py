@@ -15,7 +15,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, repr=False, init=False)
 class Flight:
-    """The documents of a flight: `Flight(fly(scenario, plan))`, or `Flight(replay(file))`."""
+    """The documents of a flight: `Flight(fly(scenario, plan))`, or `Flight(replay(file))`.
+
+    Examples:
+        >>> flight = rg.Flight(rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0))
+        >>> round(flight.join_time)  # [s]
+        916
+    """
 
     documents: tuple[Document, ...]
 

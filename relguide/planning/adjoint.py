@@ -1,4 +1,7 @@
-"""adjoint_history(…): H and the costates of the paper over time, from those of `costates`."""
+"""adjoint_history(…): H and the costates of the paper over time, from those of `costates`.
+
+They solve (11), (12) and (13).
+"""
 
 from dataclasses import dataclass, fields
 from math import atan2, ceil, cos, hypot, sin
@@ -23,13 +26,13 @@ class AdjointHistory:
     times: tuple[Second, ...]
     """Ascending [s]; every switch and contact twice, for before and after."""
     hamiltonian: tuple[float, ...]
-    """H of eq. (9) [1]."""
+    """H of eq. (9) [1]; linear in the turn rate, (15)."""
     separation: tuple[float, ...]
-    """λ_d [s/m]; jumps at contacts."""
+    """λ_d of (11) [s/m]; jumps at contacts."""
     bearing: tuple[float, ...]
-    """λ_θ [s/rad]."""
+    """λ_θ of (12) [s/rad]."""
     switching: tuple[float, ...]
-    """λ_ψ [s/rad]: the switching function of eq. (16)."""
+    """λ_ψ of (13) [s/rad]: the switching function of eq. (16)."""
 
     def __repr__(self) -> str:
         return f"AdjointHistory({len(self.times)} times: {', '.join(f.name for f in fields(self))})"

@@ -83,7 +83,13 @@ def expect_distance(name: str, value: object) -> Metre:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Pursuer:
-    """The aircraft we guide, at t = 0."""
+    """The aircraft we guide, at t = 0.
+
+    Examples:
+        >>> own = rg.Pursuer(x=-40e3, y=40e3, heading=1.5, tas=240.0, max_bank=0.4)
+        >>> round(own.turn_radius)  # [m]
+        13892
+    """
 
     x: Metre
     """East [m]."""
@@ -94,7 +100,7 @@ class Pursuer:
     tas: MetrePerSecond
     """True airspeed V_P, kept constant [m/s]."""
     max_bank: Radian
-    """φ_max, the bank its turns are flown at [rad]."""
+    """φ_max of eq. (4), the bank its turns are flown at [rad]."""
     altitude: Metre | None = None
     """Pressure altitude [m]; `None` as in `Leader`."""
     levels: tuple[LevelChange, ...] = ()
@@ -135,7 +141,12 @@ class Pursuer:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Leader:
-    """The aircraft to be joined, at t = 0, with what it has declared it will do."""
+    """The aircraft to be joined, at t = 0, with what it has declared it will do.
+
+    Examples:
+        >>> rg.Leader(x=0.0, y=0.0, heading=1.5, tas=200.0, intent=(rg.FlyStraight(duration=60.0),))
+        Leader(x=0.0, y=0.0, heading=1.5, tas=200.0, intent=(FlyStraight(duration=60.0),))
+    """
 
     x: Metre
     """East [m]."""
@@ -195,7 +206,12 @@ class Leader:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Traffic:
-    """Another aircraft at t = 0, with what it has declared it will do, to be kept clear of."""
+    """Another aircraft at t = 0, with what it has declared it will do, to be kept clear of.
+
+    Examples:
+        >>> rg.Traffic(ident="BAW12", x=0.0, y=-60e3, heading=0.8, tas=220.0, min_separation=9e3)
+        Traffic(ident='BAW12', x=0.0, y=-60000.0, heading=0.8, tas=220.0, min_separation=9000.0)
+    """
 
     ident: str
     """Its name in answers: 1 to 24 characters."""

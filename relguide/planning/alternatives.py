@@ -120,6 +120,11 @@ def alternatives(plan: Plan, *, deadline: Second | None = None) -> tuple[AnyAlte
     Where the slot opens later, also the words that would be there before, and one path for each
     passing of the many that arrive just as it opens.
 
+    Examples:
+        >>> best = rg.plan(rg.scenario("fig_6b").situation)
+        >>> rg.alternatives(best)[0].why
+        'reaches the slot 29 s before it opens'
+
     Args:
         plan: made by any planner.
         deadline: how long it may take, 0 to `MAX_DEADLINE` [s]: then the list ends early. Loading

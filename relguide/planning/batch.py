@@ -71,7 +71,15 @@ RANGES = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Situations:
-    """Situations as columns, each of shape (n,) or one number for all; units as in `Situation`."""
+    """Situations as columns, each of shape (n,) or one number for all; units as in `Situation`.
+
+    Examples:
+        >>> asked = rg.Situations(
+        ...     pursuer_x=[-40e3, -60e3], pursuer_y=40e3, pursuer_heading=0.0, pursuer_tas=240.0,
+        ...     max_bank=0.4, leader_tas=200.0, slot_distance=10e3, min_separation=9_260.0)
+        >>> rg.plan_arrays(asked).time_to_converge.round()
+        array([427., 327.])
+    """
 
     pursuer_x: ArrayLike
     pursuer_y: ArrayLike

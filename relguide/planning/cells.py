@@ -60,7 +60,11 @@ class Polygon:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Cell:
-    """A weather cell at all levels, to be kept out of."""
+    """A weather cell at all levels, to be kept out of.
+
+    Examples:
+        >>> storm = rg.Cell(ident="CB1", shape=rg.Disc(x=60e3, y=20e3, radius=15e3), growth=1.0)
+    """
 
     ident: str
     """Its name in answers: 1 to 24 characters."""

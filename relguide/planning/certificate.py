@@ -87,6 +87,13 @@ class Certificate:
 def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
     """Judge a trajectory of the air mass against the situation's real leader, its turns included.
 
+    It holds where d ≥ d_min is proved all along, eq. (5).
+
+    Examples:
+        >>> best = rg.plan(rg.scenario("fig_6b").situation)
+        >>> rg.certify(best.trajectory, best.situation).holds
+        True
+
     Args:
         trajectory: the pursuer's, from t = 0 to its end.
         situation: gives the leader with its intent, and d_min. Uniform wind moves both alike.

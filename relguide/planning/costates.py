@@ -5,6 +5,8 @@ Between two touches of d = d_min a part has three constants (see `kernels.costat
 
     H(t_f) = 0;    H is continuous where d_min is touched;    at a contact so is λ_ψ.
 
+Eq. (14) says no more of the end than that λ(t_f) is constant; H(t_f) = 0 is what it lacks.
+
 The others are met in least squares: λ_ψ = 0 at each switch, on each straight and at both ends of a
 boundary arc. An extremal without the limit has as many equations as unknowns; a constrained path
 may have one more for each contact, which is met only if the contact is in the best place. A piece
@@ -61,7 +63,7 @@ def sliding_costate(kappa: float, course: Vector, leader_velocity: Vector) -> Ve
 
 
 def multiplier(kappa: float, at: Instant) -> float:
-    """μ on a boundary arc: what it takes for λ_p to stay along the course, −λ_p′·e.
+    """μ of eq. (10) on a boundary arc: what it takes for λ_p to stay along the course, −λ_p′·e.
 
     d″ = 0 asks for û′ = r n̂, n̂ to the right of the course, with r n̂·e = |û − v̂_L|²/d; and from
     λ_p = κ û/(1 − û·v̂_L) follows λ_p′·e.

@@ -68,7 +68,12 @@ class FlyStraight:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class TurnTo:
-    """A piece of intent: turn at constant bank to a heading, the way round that `turn` says."""
+    """A piece of intent: turn at constant bank to a heading, the way round that `turn` says.
+
+    Examples:
+        >>> rg.TurnTo.from_display(heading_deg=135, direction="right", bank_deg=20).turn == rg.RIGHT
+        True
+    """
 
     heading: Radian
     """Heading to roll out on, clockwise from north [rad]."""
@@ -107,6 +112,10 @@ class ChangeLevel:
 
     It takes no time of its own: the pieces behind it are flown while the level changes. A later
     change takes the place of one that is not over.
+
+    Examples:
+        >>> rg.ChangeLevel(to_altitude=9_000.0, rate=7.5)
+        ChangeLevel(to_altitude=9000.0, rate=7.5)
     """
 
     to_altitude: Metre

@@ -129,6 +129,11 @@ def check(
 ) -> OptimalityReport:
     """Check whether Pontryagin's conditions hold along a trajectory.
 
+    Examples:
+        >>> best = rg.plan(rg.scenario("fig_6b").situation)
+        >>> rg.check(best, best.situation).holds
+        True
+
     Args:
         flown: a plan, or any trajectory that reaches the slot.
         situation: what it was made for.

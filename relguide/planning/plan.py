@@ -62,6 +62,10 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
     131,072 windows, and nothing beyond 12 hours is considered. The slowest case found takes some
     seconds: twenty turns, some of them at 1° of bank, and no path to the slot.
 
+    Examples:
+        >>> rg.plan(rg.scenario("fig_6b").situation).word
+        'SRSR'
+
     Args:
         situation: what to plan.
         deadline: how long it may take, 0 to `MAX_DEADLINE` [s]. The search then ends early, with

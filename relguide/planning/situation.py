@@ -43,7 +43,13 @@ def expect_others(name: str, value: object) -> tuple[Other, ...]:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Situation:
-    """Everything a plan depends on, at one instant (t = 0)."""
+    """Everything a plan depends on, at one instant (t = 0): the initial conditions, eq. (6).
+
+    Examples:
+        >>> own = rg.Pursuer(x=-40e3, y=40e3, heading=1.5, tas=240.0, max_bank=0.4)
+        >>> leader = rg.Leader(x=0.0, y=0.0, heading=1.5, tas=200.0)
+        >>> asked = rg.Situation(pursuer=own, leader=leader, slot_distance=10e3, min_separation=9e3)
+    """
 
     pursuer: Pursuer
     leader: Leader

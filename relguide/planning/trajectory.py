@@ -42,7 +42,12 @@ Bend = tuple[Metre, float]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arc:
-    """A turn at constant bank."""
+    """A turn at constant bank.
+
+    Examples:
+        >>> rg.Arc(turn=rg.LEFT, turn_angle=0.5, radius=9_000.0).length
+        4500.0
+    """
 
     turn: Turn
     """`LEFT` or `RIGHT`."""
@@ -104,6 +109,11 @@ class Trajectory:
     """Segments flown one after another at constant true airspeed, in the air mass.
 
     In wind the air mass moves: over the ground the same trajectory is displaced by wind × t.
+
+    Examples:
+        >>> ahead = rg.Straight(length=2_000.0)
+        >>> rg.Trajectory(x=0.0, y=0.0, heading=0.0, tas=200.0, segments=(ahead,)).duration
+        10.0
     """
 
     x: Metre

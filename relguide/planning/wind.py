@@ -39,6 +39,10 @@ CALM = Wind()
 def wind_from(direction: float, speed: float) -> Wind:
     """The wind that blows *from* a direction, as reports give it.
 
+    Examples:
+        >>> rg.wind_from(0.0, 20.0).north  # from the north
+        -20.0
+
     Args:
         direction: where it comes from, clockwise from north [rad].
         speed: [m/s], ≥ 0.

@@ -89,6 +89,10 @@ def candidates(situation: Situation) -> Candidates:
 
     With no separation limit the first is the global optimum; an empty answer means that the slot
     cannot be reached (possible only for V_L ≥ V_P).
+
+    Examples:
+        >>> [found.word for found in rg.candidates(rg.scenario("fig_6b").situation)][:2]
+        ['SRSR', 'RSRS']
     """
     expect("situation", situation, Situation)
     leader = situation.leader.trajectory

@@ -30,7 +30,7 @@ from relguide_server.flights import record_routes, routes, scene_relay, stream_d
 from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
 from relguide_server.flights.live_fleet import LiveFleet
 from relguide_server.flights.peers import Peers
-from relguide_server.http import logs, pages, problem_docs
+from relguide_server.http import guide, logs, pages, problem_docs
 from relguide_server.http.access import Access, read_tokens
 from relguide_server.http.bodies import Bodies, json_answer
 from relguide_server.http.body_limit import BodyLimit
@@ -64,7 +64,7 @@ DESCRIPTION = """Minimum-time relative guidance: plans with a proof, and flights
 
 Every field names its unit. Headings count clockwise from true north. Errors are problem documents
 (RFC 9457). A flight is watched by WebSocket at `/api/v1/flights/{id}/stream` (see `/docs/stream`),
-and in 3D at `/scene/{id}/`."""
+and in 3D at `/scene/{id}/`. The guide to all of relguide is at [`/guide/`](guide/)."""
 
 NO_TELEMETRY: TelemetryConfig = {"tracing": False, "metrics": False, "logs": False}
 """The framework's own, which looks for exporters at each request: `Metrics` counts here."""
@@ -187,6 +187,7 @@ def create_app(
         traffic_routes.router,
         stream_docs.router,
         problem_docs.router,
+        guide.router,
         pages.router,
     ):
         app.include_router(part)

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from matplotlib.axes import Axes
 
-from benchmarks.drawings import BLUE, INK, ORANGE, PALE, figure
+from benchmarks.drawings import figure
+from relguide.figures.style import BLUE, INK, ORANGE, PALE
 from relguide.units import DEG
 from tests.aloft import A306
 from tools.campaign import responses

@@ -74,14 +74,21 @@ def _show(axes: "Axes", asked: Scenario, flight: Flown, alone: Plan) -> None:
             case Cell():
                 _cell(axes, other, 0.0, filled=False)
                 _cell(axes, other, near.t, filled=True)
-    poses = [alone.trajectory.pose_at(float(t)) for t in np.linspace(0.0, alone.time_to_converge, 240)]
+    poses = [
+        alone.trajectory.pose_at(float(t)) for t in np.linspace(0.0, alone.time_to_converge, 240)
+    ]
     axes.plot(
         [p.x / KM for p in poses], [p.y / KM for p in poses],
         color=PALE, ls="--", label="the plan without others",
     )  # fmt: skip
     leader, own = flight.courses["LEADER"], flight.courses["PURSUER"]
     axes.plot(
-        leader.x[:until] / KM, leader.y[:until] / KM, color=INK, lw=1.0, ls=(0, (8, 3, 2, 3)), label="leader"
+        leader.x[:until] / KM,
+        leader.y[:until] / KM,
+        color=INK,
+        lw=1.0,
+        ls=(0, (8, 3, 2, 3)),
+        label="leader",
     )
     axes.plot(own.x[:until] / KM, own.y[:until] / KM, color=BLUE, lw=2.0, label="flown")
     for course, colour in ((leader, INK), (own, BLUE)):
@@ -122,7 +129,7 @@ def _look(*, filled: bool) -> dict[str, Any]:
 
 
 def _hull(points: Any) -> Any:
-    """Convex hull of points, counter-clockwise. shape (n, 2)"""
+    """Convex hull of points, counter-clockwise. shape (n, 2)."""
     ordered = sorted(set(map(tuple, points.tolist())))
 
     def half(there: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -140,5 +147,5 @@ def _hull(points: Any) -> Any:
 
 
 FIGURE = NamedFigure(
-    name="amid_others", title="Plans amid other traffic and weather", seconds=8.0, draw=draw
+    name="amid_others", title="Plans amid other traffic and weather", seconds=5.0, draw=draw
 )

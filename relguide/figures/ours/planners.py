@@ -7,7 +7,7 @@ from relguide.figures.results import read_results
 from relguide.figures.style import BLUE, ORANGE, PALE, empty_figure
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    pass
 
 WITHOUT, WITH, MAKER = "without_limit.csv", "with_limit.csv", "make planner-figures"
 OURS = ("kernel", "plan()")
@@ -54,6 +54,10 @@ def draw(step: Step) -> Drawn:
         colour, face = (BLUE, BLUE) if ours else (ORANGE, "white")
         left.plot((row.median, row.late), (y, y), color=colour, lw=2.2, ls="-" if ours else "--")
         left.plot(row.median, y, "o" if ours else "s", color=colour, mfc=face, ms=6, zorder=5)
+        left.annotate(
+            time_in_words(row.median), (row.median, y), (-7, -3), textcoords="offset points",
+            ha="right", color=colour, fontsize=8,
+        )  # fmt: skip
         right.barh(
             y, row.wrong, height=0.55, color=face, edgecolor=colour, hatch="" if ours else "////",
             lw=0.8,
@@ -61,6 +65,7 @@ def draw(step: Step) -> Drawn:
         right.text(row.wrong + 0.8, y, f"{row.wrong:.0f} %", va="center", fontsize=8)
     left.set_yticks(list(heights.values()), [row.name for row in heights], fontsize=8)
     left.set_xscale("log")
+    left.set_xlim(4e-7, 60.0)
     ticks = {1e-6: "1 µs", 1e-4: "100 µs", 1e-2: "10 ms", 1.0: "1 s"}
     left.set_xticks(list(ticks), list(ticks.values()))
     left.set_xlabel("CPU time of an answer, median to 99 %")
@@ -72,7 +77,10 @@ def draw(step: Step) -> Drawn:
     for axes in (left, right):
         axes.axhline(split, color=PALE, lw=0.8)
         axes.grid(visible=False, axis="y")
-    for y, words in ((0.75, "without the limit: by over 0.1 s"), (split - 0.42, "where d_min binds: by over 1 s")):
+    for y, words in (
+        (0.75, "without the limit: by over 0.1 s"),
+        (split - 0.42, "where d_min binds: by over 1 s"),
+    ):
         right.text(47.5, y, words, ha="right", va="center", fontsize=8, style="italic")
     right.set_ylim(min(heights.values()) - 0.7, 1.2)
     counts = {row["name"]: row["cases"] for row in read_results(WITH)}
@@ -84,14 +92,17 @@ def draw(step: Step) -> Drawn:
     )
 
 
-def _numbered(
-    part: list[Row], parts: tuple[list[Row], ...], k: int
-) -> "list[tuple[int, Row]]":
+def time_in_words(seconds: float) -> str:
+    """A time with its unit, to two digits or so."""
+    size, unit = (1.0, "s") if seconds >= 1.0 else (1e-3, "ms") if seconds >= 1e-3 else (1e-6, "µs")
+    value = seconds / size
+    return f"{value:.0f} {unit}" if value >= 10.0 else f"{value:.1f} {unit}"
+
+
+def _numbered(part: list[Row], parts: tuple[list[Row], ...], k: int) -> "list[tuple[int, Row]]":
     """Rows with their number among all parts."""
     first = sum(len(one) for one in parts[:k])
     return list(enumerate(part, start=first))
 
 
-FIGURE = NamedFigure(
-    name="planners", title="Our planner against its peers", seconds=1.0, draw=draw
-)
+FIGURE = NamedFigure(name="planners", title="Our planner against its peers", seconds=1.0, draw=draw)

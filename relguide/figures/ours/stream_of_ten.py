@@ -107,4 +107,4 @@ def _paths(axes: "Axes", asked: Scenario, flight: Flown) -> None:
         )
 
 
-FIGURE = NamedFigure(name="stream_of_ten", title="A stream of ten", seconds=25.0, draw=draw)
+FIGURE = NamedFigure(name="stream_of_ten", title="A stream of ten", seconds=16.0, draw=draw)

@@ -42,7 +42,9 @@ def draw(step: Step) -> Drawn:
     blown = 0.0, *SPEEDS
     for (_, own), name, look in zip(flights.items(), NAMES, LOOKS, strict=False):
         late = [flight.result.join_time - flight.result.promised for flight in own]
-        right.plot(blown, late, look.mark, color=look.colour, ls=look.dashes, label=f"from the {name}")
+        right.plot(
+            blown, late, look.mark, color=look.colour, ls=look.dashes, label=f"from the {name}"
+        )
     right.axhline(0.0, color=INK, lw=0.8)
     right.set_ylim(-10.0, 10.0)
     right.set_title("joined after the first promise by [s]")
@@ -73,16 +75,23 @@ def _in_wind(direction: Radian, speed: MetrePerSecond) -> Scenario:
 
 def _paths(axes: "Axes", calm: Flown, strongest: dict[float, Flown]) -> None:
     as_map(axes)
-    axes.set_title(f"over the ground, {SPEEDS[-1]:.0f} m/s; dots: joined")
+    axes.set_title(f"over the ground, {SPEEDS[-1]:.0f} m/s; thin: the leader, dots: joined")
     for flight, colour, dashes, width in (
         (calm, PALE, "-", 3.0),
-        *((own, look.colour, look.dashes, 1.4) for own, look in zip(strongest.values(), LOOKS, strict=False)),
+        *(
+            (own, look.colour, look.dashes, 1.4)
+            for own, look in zip(strongest.values(), LOOKS, strict=False)
+        ),
     ):
         until = int(np.searchsorted(flight.t, flight.result.join_time))
         course, leader = flight.courses["PURSUER"], flight.courses["LEADER"]
         axes.plot(course.x[:until] / KM, course.y[:until] / KM, color=colour, ls=dashes, lw=width)
         axes.plot(
-            leader.x[: until + 60] / KM, leader.y[: until + 60] / KM, color=colour, lw=0.7, ls=dashes
+            leader.x[: until + 60] / KM,
+            leader.y[: until + 60] / KM,
+            color=colour,
+            lw=0.7,
+            ls=dashes,
         )
         axes.plot(course.x[until] / KM, course.y[until] / KM, "o", color=colour, ms=5)
     start = calm.courses["PURSUER"]
@@ -90,10 +99,13 @@ def _paths(axes: "Axes", calm: Flown, strongest: dict[float, Flown]) -> None:
     aircraft(axes, 0.0, 0.0, 90.0)
     axes.annotate("leader", (0.0, 0.0), (-4, -16), textcoords="offset points")
     axes.annotate(
-        "pursuer; grey: in calm air", (start.x[0] / KM, start.y[0] / KM), (0, 12), textcoords="offset points"
+        "pursuer; grey: in calm air",
+        (start.x[0] / KM, start.y[0] / KM),
+        (0, 26),
+        textcoords="offset points",
     )
 
 
 FIGURE = NamedFigure(
-    name="wrong_wind", title="The promise kept under a wrong wind", seconds=12.0, draw=draw
+    name="wrong_wind", title="The promise kept under a wrong wind", seconds=9.0, draw=draw
 )

@@ -50,7 +50,12 @@ def draw(step: Step) -> Drawn:
         color=PALE, ls=(0, (8, 3, 2, 3)), lw=1.2,
     )  # fmt: skip
     axes.text(
-        lx - behind * ux, ly - behind * uy - 1.0, "the leader's route", color=PALE, ha="center", va="top"
+        lx - behind * ux,
+        ly - behind * uy - 1.0,
+        "the leader's route",
+        color=PALE,
+        ha="center",
+        va="top",
     )
     axes.plot([0.0, lx], [0.0, ly], color=INK, lw=1.4)
     axes.text(0.5 * lx + 0.6, 0.5 * ly - 1.9, "$d$", fontsize=14)
@@ -102,9 +107,7 @@ def _north(axes: "Axes", x: float, y: float) -> None:
     axes.text(x, y + NORTH + 0.9, "N", color=PALE, ha="center", va="center")
 
 
-def _arrow(
-    axes: "Axes", start: tuple[float, float], end: tuple[float, float], colour: str
-) -> None:
+def _arrow(axes: "Axes", start: tuple[float, float], end: tuple[float, float], colour: str) -> None:
     axes.annotate(
         "", end, start,
         arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 1.6, "shrinkA": 0, "shrinkB": 0},
@@ -130,6 +133,4 @@ def _angle(
     )  # fmt: skip
 
 
-FIGURE = NamedFigure(
-    name="fig_1", title="Fig. 1: relative positions", seconds=0.5, draw=draw
-)
+FIGURE = NamedFigure(name="fig_1", title="Fig. 1: relative positions", seconds=0.5, draw=draw)

@@ -42,9 +42,8 @@ D, LEADER_TAS = 12_000.0, 200.0
 
 def situation() -> Situation:
     """The one that the trajectory is an answer to: its leader is where the slot must be, (19)."""
-    flown = START.flying(
-        trajectory_from_regular(REGULAR, _behind(Leader(x=0.0, y=0.0, heading=0.0, tas=150.0))).segments
-    )
+    anywhere = _behind(Leader(x=0.0, y=0.0, heading=0.0, tas=LEADER_TAS))
+    flown = trajectory_from_regular(REGULAR, anywhere)
     end = flown.pose_at(flown.duration)
     back = LEADER_TAS * flown.duration - D
     return _behind(
@@ -66,7 +65,7 @@ def draw(step: Step) -> Drawn:
     del step
     asked = situation()
     flown, found = trajectory_from_regular(REGULAR, asked), regular_check(REGULAR, asked)
-    figure = empty_figure(8.0, 4.9)
+    figure = empty_figure(9.0, 4.4)
     axes = figure.subplots()
     as_map(axes)
     _tracks(axes, asked, flown)
@@ -79,7 +78,8 @@ def draw(step: Step) -> Drawn:
             _turn(axes, number, REGULAR.triplets[number - 1], poses)
         else:
             _straight(axes, number, poses)
-    for number, begin in zip(range(len(REGULAR.triplets) + 1, 0, -1), (*starts[::2][:3], starts[-1]), strict=True):
+    for k, begin in enumerate((*starts[:-1:2], starts[-1])):
+        number = found.order - k
         pose = flown.pose_at(float(begin))
         axes.plot(pose.x / KM, pose.y / KM, "o", color=INK, mfc="white", ms=11, zorder=7)
         axes.text(
@@ -90,8 +90,8 @@ def draw(step: Step) -> Drawn:
         figure,
         f"Order {found.order}: {len(REGULAR.triplets)} pairs of a turn at "
         f"{degrees(START.max_bank):.0f}° of bank (R_min = {START.turn_radius / KM:.1f} km) and a "
-        f"straight, numbered backward from the slot; Σ(l + R_min θ) = {found.length / KM:.1f} km in "
-        f"{found.duration:.0f} s. It ends in the slot (to {abs(found.final_error.along):.0f} m) and "
+        f"straight, numbered backward from the slot; Σ(l + R_min θ) = {found.length / KM:.1f} km, "
+        f"{found.duration:.0f} s. It ends in the slot to {abs(found.final_error.along):.0f} m and "
         f"keeps {found.separation.least / NM:.1f} NM from the leader.",
     )
 
@@ -103,15 +103,15 @@ def _tracks(axes: "Axes", asked: Situation, flown: Trajectory) -> None:
         poses = [path.pose_at(float(t)) for t in times]
         x, y = [p.x / KM for p in poses], [p.y / KM for p in poses]
         axes.plot(x, y, color=colour, ls=dashes, lw=2.0)
-    for path, t, colour, name in (
-        (flown, 0.0, BLUE, "pursuer"),
-        (leader, 0.0, ORANGE, "leader at 0 s"),
-        (leader, flown.duration, ORANGE, f"leader at {flown.duration:.0f} s"),
+    for path, t, colour, name, offset in (
+        (flown, 0.0, BLUE, "pursuer", (-14, 14)),
+        (leader, 0.0, ORANGE, "leader at 0 s", (-10, -16)),
+        (leader, flown.duration, ORANGE, f"leader at {flown.duration:.0f} s", (-50, -16)),
     ):
         pose = path.pose_at(t)
         aircraft(axes, pose.x / KM, pose.y / KM, degrees(pose.heading), colour)
         axes.annotate(
-            name, (pose.x / KM, pose.y / KM), (6, -16), textcoords="offset points", color=colour
+            name, (pose.x / KM, pose.y / KM), offset, textcoords="offset points", color=colour
         )
     end, ahead = flown.pose_at(flown.duration), leader.pose_at(flown.duration)
     axes.annotate(

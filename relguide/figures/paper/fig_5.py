@@ -1,6 +1,7 @@
 """Fig. 5: the feedforward structure of the networks, as shipped, and their audit."""
 
 import re
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -8,8 +9,9 @@ import numpy as np
 from relguide.figures.drawn import Drawn, NamedFigure, Step
 from relguide.figures.results import read_results
 from relguide.figures.style import BLUE, GREEN, INK, ORANGE, PALE, empty_figure
+from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.tree.regular_network import load_regular, shipped_weights
-from relguide.learn.words.branch_network import BRANCHES, load_network
+from relguide.learn.words.branch_network import load_network
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,6 +21,7 @@ SHOWN = 6
 """Units drawn of a layer that has more."""
 INPUTS = ("x / R", "y / R", "cos ψ", "sin ψ")
 OUTPUTS = ("ε", "θ", "l")
+METHODS = "ours", "paper's network"
 SHARE = re.compile(r"([\d.]+) \(([\d.]+)–([\d.]+)\)")
 
 
@@ -69,10 +72,10 @@ def _network(
     axes.set_axis_off()
     axes.set_title(title)
     columns = [_heights(size) for size in sizes]
-    for k, (here, there) in enumerate(zip(columns, columns[1:], strict=False)):
+    for k, (here, there) in enumerate(pairwise(columns)):
         x = np.array([[k], [k + 1.0], [np.nan]])
-        ends = np.array([(a, b, np.nan) for a in here for b in there]).T
-        axes.plot(np.repeat(x, ends.shape[1], 1).T.ravel(), ends.T.ravel(), color=PALE, lw=0.35)
+        lines = np.array([(a, b, np.nan) for a in here for b in there]).T
+        axes.plot(np.repeat(x, lines.shape[1], 1).T.ravel(), lines.T.ravel(), color=PALE, lw=0.35)
     for k, (size, heights) in enumerate(zip(sizes, columns, strict=True)):
         ends = k in (0, len(sizes) - 1)
         colour = (GREEN if k == 0 else ORANGE) if ends else BLUE
@@ -84,12 +87,12 @@ def _network(
             axes.text(k, 0.0, "⋮", ha="center", va="center", fontsize=13)
         what = "inputs" if k == 0 else "outputs" if ends else unit
         axes.text(k, -1.32, f"{size} {what}", ha="center", va="top", color=INK)
-    for k, words, side in ((-0.16, inputs, "right"), (len(sizes) - 0.84, outputs, "left")):
+    for beside, words, side in ((-0.16, inputs, "right"), (len(sizes) - 0.84, outputs, "left")):
         all_units = columns[0] if side == "right" else columns[-1]
         few = len(words) < len(all_units)
         heights = np.linspace(0.65, -0.65, len(words)).tolist() if few else all_units
         for height, word in zip(heights, words, strict=True):
-            axes.text(k, height, word, ha=side, va="center", fontsize=8)
+            axes.text(beside, height, word, ha=side, va="center", fontsize=8)
     axes.set_xlim(-1.25, len(sizes) - 0.1)
     axes.set_ylim(-1.6, 1.15)
 
@@ -117,7 +120,7 @@ def _audit(axes: "Axes") -> str:
         (solved, (ORANGE, "s"), "fastest path, its words solved", -0.12),
     ):
         for k, method in enumerate(methods):
-            middle, low, high = map(float, SHARE.match(row[method]).groups())  # type: ignore[union-attr]
+            middle, low, high = _share(row[method])
             y = -k + shift
             wrong, least, most = 100.0 - middle, 100.0 - high, 100.0 - low
             axes.plot([max(least, 1e-3), most], [y, y], color=look[0], lw=1.0)
@@ -132,13 +135,21 @@ def _audit(axes: "Axes") -> str:
     axes.set_xlabel("not right [%], with 95 % interval")
     axes.grid(visible=False, axis="y")
     axes.legend(loc="upper left")
-    share = SHARE.match(flown["paper's network"])
-    ours, theirs = SHARE.match(named["ours"]), SHARE.match(named["paper's network"])
-    assert share and ours and theirs
-    return (
-        f"The paper's names the fastest branch in {theirs[1]} % of situations, ours in {ours[1]} %;"
-        f" flown as given, {share[1]} % of the paper's paths reach the slot."
+    theirs, ours, share = (
+        _share(row[method])[0]
+        for row, method in ((named, METHODS[1]), (named, METHODS[0]), (flown, METHODS[1]))
     )
+    return (
+        f"The paper's names the fastest branch in {theirs:.2f} % of situations, ours in "
+        f"{ours:.2f} %; flown as given, {share:.3f} % of the paper's paths reach the slot."
+    )
+
+
+def _share(cell: str) -> tuple[float, float, float]:
+    """A share and its interval [%], as the table writes them."""
+    found = SHARE.match(cell)
+    assert found is not None
+    return float(found[1]), float(found[2]), float(found[3])
 
 
 FIGURE = NamedFigure(

@@ -115,7 +115,9 @@ def _paths(axes: "Axes", flights: list[tuple[Way, Flown]]) -> None:
         axes.plot(course.x[every] / KM, course.y[every] / KM, ".", color=colour, ms=5)
         aircraft(axes, course.x[0] / KM, course.y[0] / KM, course.heading[0] / DEG, colour)
     axes.legend(
-        loc="upper right", title=f"dots every {DOT_EVERY // 60} min, marks: joined", title_fontsize=8
+        loc="upper right",
+        title=f"dots every {DOT_EVERY // 60} min, marks: joined",
+        title_fontsize=8,
     )
 
 
@@ -131,12 +133,12 @@ def _told(flights: list[tuple[Way, Flown]]) -> str:
 FIG_6A = NamedFigure(
     name="fig_6a",
     title="Fig. 6a: without the leader's intent",
-    seconds=3.0,
+    seconds=2.0,
     draw=partial(draw, (UNKNOWN, CHASE, PRONAV)),
 )
 FIG_6B = NamedFigure(
     name="fig_6b",
     title="Fig. 6b: with the leader's intent",
-    seconds=3.0,
+    seconds=2.0,
     draw=partial(draw, (KNOWN, UNKNOWN, CHASE)),
 )

@@ -1,4 +1,4 @@
-"""Fig. 7: the navigation display at one instant of Fig. 6b, beside what section 6 asks it to show."""
+"""Fig. 7: the navigation display in Fig. 6b, beside what section 6 asks it to show."""
 
 from html import escape
 from math import cos, sin
@@ -40,15 +40,11 @@ ELEMENTS = (
 def draw(step: Step) -> Drawn:
     """The display on the left, numbered; the list on the right."""
     told = [
-        one
-        for one in fly(scenario(SCENARIO), plan, sample_period=1.0)
-        if one.t <= INSTANT + 1.0
+        one for one in fly(scenario(SCENARIO), plan, sample_period=1.0) if one.t <= INSTANT + 1.0
     ]
     step(0.5)
     shown = picture(told, INSTANT, mode="ARC", range_nm=RANGE, palette="light", caption=COMMAND)
-    numbers = "".join(
-        _mark(k, *point) for k, point in enumerate(_places(told), start=1)
-    )
+    numbers = "".join(_mark(k, *point) for k, point in enumerate(_places(told), start=1))
     rows = "".join(_row(k, *words) for k, words in enumerate(ELEMENTS, start=1))
     text = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH + LIST}" height="{HEIGHT}" '

@@ -32,7 +32,11 @@ FLAGS = ("always_ask",)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settings:
-    """How guidance plans, tracks, watches and speaks."""
+    """How guidance plans, tracks, watches and speaks.
+
+    Examples:
+        >>> fly_gently = rg.Settings(bank_in_hand=0.09)
+    """
 
     bank_in_hand: Radian = 2.5 * DEG
     """Plans turn at so much less bank than the autopilot may use: 0.43 m/s² against an offset."""

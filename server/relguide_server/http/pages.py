@@ -1,11 +1,9 @@
 """The built pages of cockpit and controller, and the API's page, without any other machine."""
 
 import gzip
-import mimetypes
 import re
 from base64 import b64encode
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache
 from hashlib import sha256
 from html import escape
@@ -18,8 +16,8 @@ from starlette.datastructures import Headers
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from relguide_server.http.built_files import BuiltFile, answer, read
 from relguide_server.http.errors import Refusal
-from relguide_server.http.etags import ASK_AGAIN, has, tag_of
 from relguide_server.http.proxy import path_of, root_of
 
 PACKAGE = Path(__file__).parents[1]
@@ -27,10 +25,6 @@ PAGE_FOLDERS = (PACKAGE / "page", PACKAGE.parents[1] / "web" / "dist")
 """Where the built page is: in the package when installed, in the source tree otherwise."""
 PAGES = {"/": "/index.html", "/atc": "/atc.html"}
 """The cockpit and the controller's page, by their addresses."""
-FOR_EVER = "public, max-age=31536000, immutable"
-WORTH_PACKING = 1024
-"""Smaller files [bytes] are not compressed."""
-PACKED = ("text/", "application/json", "application/javascript", "image/svg+xml")
 
 SCRIPT = re.compile(rb"<script>(.*?)</script>", re.DOTALL)
 DOCS_CSP = (
@@ -47,18 +41,6 @@ this page.
 <p style="color:#888">Looked in: {folders}"""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _File:
-    body: bytes
-    packed: bytes
-    """The same, gzipped; empty if that is not worth it."""
-    media_type: str
-    tag: str
-    cache: str
-    for_all: bool
-    """Whether pages of other sites may load it."""
-
-
 class Page:
     """ASGI middleware: answers with files of the built pages; everything else goes on to the app.
 
@@ -68,7 +50,7 @@ class Page:
     def __init__(self, app: ASGIApp, *, folders: Sequence[Path] = PAGE_FOLDERS) -> None:
         self.app = app
         self.folders = folders
-        self._files: dict[str, _File] = {}
+        self._files: dict[str, BuiltFile] = {}
         self._read_from: tuple[Path, int] | None = None
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -83,7 +65,7 @@ class Page:
         if path == "/atc/":  # what the page names is beside it, not below it
             await RedirectResponse(f"{root_of(scope)}/atc")(scope, receive, send)
         elif found is not None:
-            await _answer(found, Headers(scope=scope))(scope, receive, send)
+            await answer(found, Headers(scope=scope))(scope, receive, send)
         elif path in PAGES:
             folders = escape(", ".join(map(str, self.folders)))
             await HTMLResponse(NOT_BUILT.format(folders=folders), 503)(scope, receive, send)
@@ -98,40 +80,13 @@ class Page:
             stamp = (folder, index.stat().st_mtime_ns)
             if stamp != self._read_from:
                 self._files = {
-                    f"/{path.relative_to(folder).as_posix()}": _read(path)
+                    f"/{path.relative_to(folder).as_posix()}": read(path)
                     for path in sorted(folder.rglob("*"))
                     if path.is_file() and not path.name.startswith(".")
                 }
                 self._read_from = stamp
             return
         self._files, self._read_from = {}, None
-
-
-def _read(path: Path) -> _File:
-    body = path.read_bytes()
-    media_type = mimetypes.guess_type(path.name)[0] or "application/octet-stream"
-    pack = len(body) > WORTH_PACKING and media_type.startswith(PACKED)
-    return _File(
-        body=body,
-        packed=gzip.compress(body, 9) if pack else b"",
-        media_type=media_type,
-        tag=tag_of(body),
-        # Vite writes the hash of the content into the names of what it puts into assets/.
-        cache=FOR_EVER if path.parent.name == "assets" else ASK_AGAIN,
-        for_all=path.parent.name == "embed",
-    )
-
-
-def _answer(file: _File, request: Headers) -> Response:
-    headers = {"ETag": file.tag, "Cache-Control": file.cache, "Vary": "Accept-Encoding"}
-    if file.for_all:
-        headers["Access-Control-Allow-Origin"] = "*"
-    if has(request, file.tag):
-        return Response(status_code=304, headers=headers)
-    if file.packed and "gzip" in request.get("accept-encoding", ""):
-        headers["Content-Encoding"] = "gzip"
-        return Response(file.packed, headers=headers, media_type=file.media_type)
-    return Response(file.body, headers=headers, media_type=file.media_type)
 
 
 router = APIRouter(include_in_schema=False)

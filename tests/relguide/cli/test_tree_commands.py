@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from relguide.cli import area_command, tree_growth
-from relguide.figures.area_figure import Column, draw_areas
+from relguide.cli import tree_growth
+from relguide.figures.area_figure import Column, column_of, draw_areas
 from relguide.learn.tree import reverse_dp
 from relguide.learn.tree.reverse_dp import Growth, grow_order, plant
 from relguide.learn.tree.tree_file import load_growth, load_tree, save_growth
-from relguide.maps.area import Area
+from relguide.maps.area import Area, Floats
 from tests.command_line import Run
 from tests.relguide.learn.tree.test_reverse_dp import same
 from tests.relguide.learn.tree.trees import parameters, tree
@@ -159,7 +159,12 @@ def test_area_draws_the_tree_beside_the_exact_area(run: Run) -> None:
 
 
 def test_what_the_tree_loses_is_never_less_than_nothing() -> None:
-    column = area_command.column_of(tree(), 2)
+    grown = tree()
+
+    def exact_from(x: Floats, y: Floats, heading: Floats, title: str) -> Floats:
+        return tree_growth.plan_places(grown.parameters, x, y, heading, title=title)
+
+    column = column_of(grown, 2, exact_from)
     filled = np.isfinite(column.tree.time)
     assert np.array_equal(filled, np.isfinite(column.loss.time))
     assert column.loss.time[filled].min() >= -1e-6

@@ -49,6 +49,8 @@ TABLE = {
     ("GET", "/atc"): "view",
     ("GET", "/docs"): "view",
     ("GET", "/docs/stream"): "view",
+    ("GET", "/guide"): "view",
+    ("GET", "/guide/{name}"): "view",
     ("GET", "/docs/swagger-ui.css"): "view",
     ("GET", "/openapi.json"): "view",
     ("GET", "/asyncapi.json"): "view",

@@ -94,7 +94,8 @@ function HelpText(props: Props) {
         The address of this page names the flight: all who open it see the same.
       </p>
       <p>
-        <a href="docs">The service's interface</a> · version {__VERSION__}
+        <a href="guide/">The guide</a> · <a href="docs">the service's interface</a> · version{" "}
+        {__VERSION__}
       </p>
       <button type="button" onClick={set(helpOpen, false)}>
         Close

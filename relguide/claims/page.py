@@ -1,0 +1,95 @@
+"""docs/claims.md: every claim, what measures it, and what was obtained last."""
+
+from collections.abc import Mapping, Sequence
+from math import floor, log10
+
+from relguide.claims.claim import Claim
+from relguide.claims.run import total_minutes
+
+HEAD = """# Which numbers are claimed, and do they hold?
+
+`relguide claims --page docs/claims.md` makes this page. A row is a number that README or docs tell.
+
+```sh
+relguide claims --quick    # {quick} claims: {quick_minutes} min on two cores
+relguide claims --all      # {every} claims: {all_minutes} min; and {kept} that are kept
+relguide claims NAME       # some of them
+```
+
+The command prints of each claim what is expected and what it obtains. It ends with 1 if a number is
+out of its tolerance. *Obtained* is of the last run that was kept here. Some claims come from
+campaigns of hours or from another machine's load: their tables are kept in `benchmarks/results`,
+and `--all` checks that table and page agree. A command
+that writes tables and pages does so here too.
+"""
+TITLES = {
+    "quick": "Checked by `--quick`",
+    "all": "Checked by `--all`",
+    "kept": "Kept: measured by a campaign",
+}
+
+
+def claims_page(claims: Sequence[Claim], obtained: Mapping[str, float]) -> str:
+    """The page.
+
+    Args:
+        claims: all of them.
+        obtained: what those have that were ever run, by their names.
+    """
+    of = {when: [claim for claim in claims if claim.runs == when] for when in TITLES}
+    running = [*of["quick"], *of["all"]]
+    written = HEAD.format(
+        quick=len(of["quick"]),
+        quick_minutes=round(total_minutes(of["quick"])),
+        every=len(running),
+        all_minutes=round(total_minutes(running)),
+        kept=len(of["kept"]),
+    )
+    for when, title in TITLES.items():
+        written += f"\n## {title}\n"
+        for command in dict.fromkeys(claim.command for claim in of[when]):
+            rows = [claim for claim in of[when] if claim.command == command]
+            written += _section(command, rows, obtained)
+    return written
+
+
+def number(value: float, like: Claim) -> str:
+    """A number with as many decimals as its claim is told with."""
+    told = (like.expected, like.tolerance or 0.0, like.at_most or 0.0, like.at_least or 0.0)
+    decimals = max(len(f"{one:.10g}".partition(".")[2]) for one in told)
+    if value and not round(value, decimals):
+        decimals = 1 - floor(log10(abs(value)))
+    return f"{value:,.{decimals}f}"
+
+
+def expected(claim: Claim) -> str:
+    """What a claim expects, with its tolerance or bound."""
+    unit = f" {claim.unit}" if claim.unit else ""
+    if claim.at_most is not None:
+        return f"{number(claim.expected, claim)} (≤ {number(claim.at_most, claim)}){unit}"
+    if claim.at_least is not None:
+        return f"{number(claim.expected, claim)} (≥ {number(claim.at_least, claim)}){unit}"
+    off = f" ± {claim.tolerance:g}" if claim.tolerance else ""
+    return f"{number(claim.expected, claim)}{off}{unit}"
+
+
+def _section(command: str, rows: Sequence[Claim], obtained: Mapping[str, float]) -> str:
+    takes = rows[0].minutes
+    time = f"{takes:.0f} min" if takes >= 1.0 else f"{60.0 * takes:.0f} s"
+    hours = f"{takes / 60.0:.1f} h" if takes >= 90.0 else time
+    lines = [
+        f"\n`{command}`, {hours}:\n",
+        "| claim | expected | obtained | said in | held by |",
+        "|---|---:|---:|---|---|",
+    ]
+    for claim in rows:
+        have = obtained.get(claim.name)
+        got = "not run" if have is None else number(have, claim)
+        page = claim.page.removeprefix("docs/") if "/" in claim.page else f"../{claim.page}"
+        title = claim.page.rpartition("/")[2]
+        file, _, test = claim.test.partition("::")
+        lines.append(
+            f"| {claim.name}: {claim.sentence} | {expected(claim)} | {got} "
+            f"| [{title}]({page}) | [{test}](../{file}) |"
+        )
+    return "\n".join(lines) + "\n"
