@@ -90,7 +90,7 @@ def _rounded(said: object) -> object:
 
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
     listed = {arguments[0] for arguments in shown_commands()}
-    planning, learning = {"plan", "check"}, {"dataset", "area", "figures", "train", "audit"}
+    planning, learning = {"plan", "check"}, {"dataset", "area", "claims", "figures", "train", "audit"}
     assert (
         listed == {"fly", "replay", "picture", "campaign", "serve", "warm-up"} | planning | learning
     )
