@@ -107,7 +107,7 @@ class _Bar:
 
     def clear(self) -> None:
         """Take it away."""
-        if self._shown and self._watched:
+        if self._shown:
             self._write("")
 
     def _write(self, line: str) -> None:
