@@ -90,9 +90,10 @@ def _rounded(said: object) -> object:
 
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
     listed = {arguments[0] for arguments in shown_commands()}
-    planning, learning = {"plan", "check"}, {"dataset", "area", "figures", "train", "audit"}
+    planning, drawing = {"plan", "check", "claims"}, {"area", "figures", "picture"}
+    learning = {"dataset", "train", "audit"}
     assert (
-        listed == {"fly", "replay", "picture", "campaign", "serve", "warm-up"} | planning | learning
+        listed == {"fly", "replay", "campaign", "serve", "warm-up"} | planning | drawing | learning
     )
     for command in listed:
         with pytest.raises(SystemExit) as end:

@@ -73,7 +73,9 @@ def _check(wanted: "tuple[Claim, ...]", root: Path | None) -> "tuple[Checked, ..
     from relguide.claims.run import check_claims, total_minutes
 
     def state(now: "Running") -> str:
-        return f"{len(now.checked)} of {len(wanted)}, {now.command[:60]}, {now.seconds:.0f} s"
+        words = now.command.removeprefix("python -m ").split()
+        name = " ".join(words[: 2 if words[:1] == ["relguide"] else 1])
+        return f"{len(now.checked)} of {len(wanted)}, {name} {now.seconds:.0f} s"
 
     checked: tuple[Checked, ...] = ()
     for now in show_progress(
