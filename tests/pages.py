@@ -2,6 +2,9 @@
 
 import io
 import re
+import shutil
+import subprocess
+import sys
 from collections.abc import Mapping
 from contextlib import redirect_stdout
 from pathlib import Path
@@ -52,6 +55,17 @@ def run_page(
         elif file:
             (folder / file[1]).write_text(code)
     return said
+
+
+def build_site(folder: Path) -> Path:
+    """Build the guide in a folder of its own, as `make guide` does; gives where it is."""
+    for name in ("docs", "relguide", "tools"):
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("*.nb?"))
+    shutil.copy(ROOT / "mkdocs.yml", folder)
+    command = [sys.executable, "-m", "zensical", "build", "--strict"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr + done.stdout
+    return folder / "build" / "guide"
 
 
 def pages() -> list[Path]:

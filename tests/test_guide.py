@@ -5,9 +5,6 @@ import doctest
 import io
 import json
 import re
-import shutil
-import subprocess
-import sys
 import xml.etree.ElementTree as ET
 from contextlib import redirect_stdout
 from importlib import import_module
@@ -18,7 +15,7 @@ from relguide_server.app import create_app
 from relguide_server.settings import ServiceSettings
 
 import relguide
-from tests.pages import ROOT, run_page
+from tests.pages import ROOT, build_site, run_page
 from tests.relguide.parallel.dask_cluster import local_cluster
 from tests.server.serving import serve
 
@@ -122,13 +119,7 @@ def test_each_page_is_in_the_navigation() -> None:
 
 @pytest.mark.slow
 def test_the_site_is_built_without_a_warning_and_asks_no_other_machine(tmp_path: Path) -> None:
-    for name in ("docs", "relguide", "tools"):
-        shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("*.nb?"))
-    shutil.copy(ROOT / "mkdocs.yml", tmp_path)
-    command = [sys.executable, "-m", "zensical", "build", "--strict"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr + done.stdout
-    site = tmp_path / "build" / "guide"
+    site = build_site(tmp_path)
     for page in site.rglob("*.html"):
         text = page.read_text()
         assert not re.search(r'<(?:script|link|img|iframe)[^>]*(?:src|href)="(?:https?:)?//', text)

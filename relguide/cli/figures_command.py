@@ -85,7 +85,8 @@ def run(chosen: argparse.Namespace) -> int:
                 ]
             }
         )
-    say(f"{len(captions)} figures are in {folder}{os.sep}.")
+    told = "1 figure is" if len(captions) == 1 else f"{len(captions)} figures are"
+    say(f"{told} in {folder}{os.sep}.")
     return DONE
 
 

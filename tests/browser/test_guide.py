@@ -1,0 +1,30 @@
+"""The guide in a browser: its search works, under a strict policy, and asks no other machine."""
+
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+from relguide_server.http import guide
+
+from tests.browser.service import Watch
+from tests.pages import build_site
+from tests.server.serving import ideal_app, serve
+
+
+def test_it_is_searched_without_another_machine(
+    page: Page, watched: Watch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(guide, "GUIDE_FOLDERS", (build_site(tmp_path),))
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    with serve(ideal_app()) as address:
+        page.goto(f"http://{address}/guide/")
+        page.get_by_role("link", name="tutorial", exact=True).first.click()
+        expect(page.locator("h1")).to_contain_text("1. Plan")
+        page.locator(".md-search__button").first.click()
+        page.locator("dialog[open] input").fill("certificate")
+        page.get_by_role("option", name=re.compile("certificate", re.IGNORECASE)).first.click()
+        expect(page).to_have_url(re.compile("/guide/.*[?#]"))
+        assert {url.split("/")[2] for url in asked if url.startswith("http")} == {address}
+    assert watched.complaints == []
