@@ -52,7 +52,7 @@ def _settle_aircraft(name: str, aircraft: "Pursuer | Leader | Traffic") -> None:
     settle(aircraft, "y", expect_within(f"{name}.y", aircraft.y, *POSITION))
     settle(aircraft, "heading", expect_within(f"{name}.heading", aircraft.heading, *HEADING))
     tas = number(f"{name}.tas", tas)
-    meant = in_knots(tas) if tas > TAS.high else ""
+    meant = in_knots(tas) if tas > TAS.high + 1.0 else ""  # closer to the bound m/s are meant
     settle(aircraft, "tas", expect_within(f"{name}.tas", tas, TAS.low, TAS.high, TAS.unit, meant))
 
 
