@@ -49,6 +49,7 @@ EXEMPT = {
             "0.47 GB",
             "0.68 GB",
             "takes 34 MB",
+            "some 550 MB",
             "at 1 GB each",
             "builds a wheel of",
             "`pip wheel .` makes one",
