@@ -40,16 +40,25 @@ def guide_file(request: Request, name: str) -> Response:
     folder = next((one for one in GUIDE_FOLDERS if (one / "index.html").is_file()), None)
     if folder is None:
         raise Refusal(404, "The guide has not been built: run make guide in the source tree.")
-    path = (folder / name).resolve()
-    if not path.is_relative_to(folder.resolve()):
+    path = _found(folder.resolve(), name)
+    if path is None:
         raise Refusal(404, f"There is nothing at /guide/{name}. The guide begins at /guide/.")
-    if path.is_dir() and name and not name.endswith("/"):
+    if path.is_dir():
         return RedirectResponse(f"{root_of(request.scope)}/guide/{name}/")
-    path = path / "index.html" if path.is_dir() else path
-    if not path.is_file():
-        raise Refusal(404, f"There is nothing at /guide/{name}. The guide begins at /guide/.")
     file, policy = _read(path, path.stat().st_mtime_ns)
     return answer(file, request.headers, more={"Content-Security-Policy": policy})
+
+
+def _found(folder: Path, name: str) -> Path | None:
+    """What is meant by a name: a file; a folder if its name lacks the stroke; `None` for neither."""
+    try:
+        path = (folder / name).resolve()
+        if path.is_dir() and (name == "" or name.endswith("/")):
+            path /= "index.html"
+        there = path.is_relative_to(folder) and path.exists()
+    except (OSError, ValueError):  # no name of a file: too long, or with a null in it
+        return None
+    return path if there else None
 
 
 @lru_cache(KEPT_FILES)

@@ -51,7 +51,20 @@ def test_unchanged_pages_are_not_sent_again(client: TestClient) -> None:
     assert (again.status_code, again.content) == (304, b"")
 
 
-@pytest.mark.parametrize("name", ["x", "x/", "../outside.txt", "%2e%2e/outside.txt", "start/x"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "x",
+        "x/",
+        "../outside.txt",
+        "%2e%2e/outside.txt",
+        "start/x",
+        "%00",
+        "x" * 300,
+        "%ff",
+        "..%2f",
+    ],
+)
 def test_nothing_else_is_served(client: TestClient, name: str) -> None:
     assert client.get(f"/guide/{name}").status_code == 404
 
