@@ -50,7 +50,7 @@ def guide_file(request: Request, name: str) -> Response:
 
 
 def _found(folder: Path, name: str) -> Path | None:
-    """What is meant by a name: a file; a folder if its name lacks the stroke; `None` for neither."""
+    """The file of a name, or the folder if its name lacks the stroke; `None` for neither."""
     try:
         path = (folder / name).resolve()
         if path.is_dir() and (name == "" or name.endswith("/")):
