@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import orjson
 from fastapi import APIRouter, Depends, Path, Query, Request
-from pydantic import AwareDatetime, BeforeValidator
+from pydantic import AfterValidator, AwareDatetime, BeforeValidator
 from starlette.responses import Response, StreamingResponse
 
 from relguide.contract.bodies import situation_from_body
@@ -86,8 +86,18 @@ router = APIRouter(
     route_class=IdempotentRoute,
 )
 
+
+def _expect_no_null(text: str) -> str:
+    """PostgreSQL refuses texts with a null character, so no record has one."""
+    if "\0" in text:
+        raise ValueError("must not contain a null character.")
+    return text
+
+
 RecordedId = Annotated[
-    str, Path(description="As `GET /records/flights` lists it.", examples=["3f2a9c0d71be"])
+    str,
+    Path(description="As `GET /records/flights` lists it.", examples=["3f2a9c0d71be"]),
+    AfterValidator(_expect_no_null),
 ]
 
 
@@ -124,7 +134,9 @@ async def list_recorded(
     since: Since = None,
     until: Until = None,
     scenario: Annotated[
-        str | None, Query(max_length=100, description="Its name; empty: one's own situations.")
+        str | None,
+        Query(max_length=100, description="Its name; empty: one's own situations."),
+        AfterValidator(lambda name: name and _expect_no_null(name)),
     ] = None,
     outcome: Annotated[Outcome | None, Query(description="What became of it.")] = None,
     limit: Limit = 100,

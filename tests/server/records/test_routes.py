@@ -428,3 +428,13 @@ def test_a_service_that_records_nothing_loads_no_database() -> None:
         [sys.executable, "-c", program], check=True, capture_output=True, text=True
     )  # fmt: skip
     assert done.stdout == "False\n"
+
+
+@pytest.mark.parametrize("name", ["%00", "a%00b", "%ff", "x" * 300, "..%2f"])
+def test_ids_that_none_can_be_are_not_found(client: TestClient, name: str) -> None:
+    for path in (f"flights/{name}", f"flights/{name}/documents", f"flights/{name}/export"):
+        answered = client.get(f"/api/v1/records/{path}").status_code
+        assert answered in (404, 422), path
+    assert client.delete(f"/api/v1/records/flights/{name}").status_code in (404, 422)
+    listed = client.get(f"/api/v1/records/flights?scenario={name}&cursor={name}")
+    assert listed.status_code < 500
