@@ -2,5 +2,5 @@
 
 `claims.toml` has the rows. `claim` says what a row is and reads them, `reading` finds a number in
 what a command prints or in a kept table, `run` runs the commands and judges, `kept` holds what was
-obtained last, and `page` writes docs/claims.md.
+obtained last, `uncovered` lists numbers that are no claims, and `page` writes docs/claims.md.
 """

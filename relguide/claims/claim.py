@@ -141,7 +141,7 @@ def named_claims(names: list[str]) -> tuple[Claim, ...]:
         if name not in known:
             near = get_close_matches(name, known, n=1, cutoff=0.5)
             meant = f": is {near[0]} meant?" if near else ": docs/claims.md lists all."
-            raise ValueError(f"There is no claim {name}{meant}")
+            raise ValueError(f'There is no claim "{name}"{meant}')
     return tuple(claim for claim in known.values() if claim.name in names)
 
 

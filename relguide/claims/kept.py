@@ -44,4 +44,4 @@ def keep_obtained(claims: Iterable[Claim], new: Mapping[str, float], root: Path)
         rows.writerow(["claim", "obtained"])
         for claim in claims:
             if claim.name in have and claim.runs != "kept":
-                rows.writerow([claim.name, f"{have[claim.name]:.6g}"])
+                rows.writerow([claim.name, f"{have[claim.name]:.10g}"])

@@ -5,22 +5,33 @@ from math import floor, log10
 
 from relguide.claims.claim import Claim
 from relguide.claims.run import total_minutes
+from relguide.claims.uncovered import Uncovered, all_uncovered
 
 HEAD = """# Which numbers are claimed, and do they hold?
 
-`relguide claims --page docs/claims.md` makes this page. A row is a number that README or docs tell.
+`relguide claims --page docs/claims.md` makes this page. A row is a number that README or docs tell;
+[the last table](#told-not-checked) has the numbers that no command checks.
 
 ```sh
-relguide claims --quick    # {quick} claims: {quick_minutes} min on two cores
+relguide claims --quick    # {quick} claims, within five minutes on two cores
 relguide claims --all      # {every} claims: {all_minutes} min; and {kept} that are kept
 relguide claims NAME       # some of them
 ```
 
-The command prints of each claim what is expected and what it obtains. It ends with 1 if a number is
-out of its tolerance. *Obtained* is of the last run that was kept here. Some claims come from
-campaigns of hours or from another machine's load: their tables are kept in `benchmarks/results`,
-and `--all` checks that table and page agree. A command
-that writes tables and pages does so here too.
+The command prints what each claim expects and what it obtains. It ends with 1 if a number is out of
+its tolerance, or if nothing was run at all. A claim that lacks a package is not run, and does not
+count. `--all` overwrites tables and pages of this clone, because some of its commands write them.
+
+*Obtained* is of the last run that was kept here. *Not run* means that its own command measured the
+number when the page was written, and that `relguide claims` has not run it again since, nor for
+this release. Some claims come from campaigns of hours or from another machine's load: their tables
+are kept in `benchmarks/results`, and `--all` compares each with its table and measures nothing.
+"""
+UNCHECKED = """
+## Told, not checked
+
+| told in | words | why no command checks them |
+|---|---|---|
 """
 TITLES = {
     "quick": "Checked by `--quick`",
@@ -40,7 +51,6 @@ def claims_page(claims: Sequence[Claim], obtained: Mapping[str, float]) -> str:
     running = [*of["quick"], *of["all"]]
     written = HEAD.format(
         quick=len(of["quick"]),
-        quick_minutes=round(total_minutes(of["quick"])),
         every=len(running),
         all_minutes=round(total_minutes(running)),
         kept=len(of["kept"]),
@@ -50,7 +60,7 @@ def claims_page(claims: Sequence[Claim], obtained: Mapping[str, float]) -> str:
         for command in dict.fromkeys(claim.command for claim in of[when]):
             rows = [claim for claim in of[when] if claim.command == command]
             written += _section(command, rows, obtained)
-    return written
+    return written + UNCHECKED + "".join(map(_unchecked, all_uncovered()))
 
 
 def number(value: float, like: Claim) -> str:
@@ -85,12 +95,25 @@ def _section(command: str, rows: Sequence[Claim], obtained: Mapping[str, float])
     for claim in rows:
         have = obtained.get(claim.name)
         got = "not run" if have is None else number(have, claim)
-        folder, _, title = claim.page.rpartition("/")
-        page = claim.page.removeprefix("docs/")
-        said = f"[{title}]({page})" if folder else f"`{title}`"  # the guide holds docs/ alone
         file, _, test = claim.test.partition("::")
         lines.append(
             f"| {claim.name}: {claim.sentence} | {expected(claim)} | {got} "
-            f"| {said} | [{test}](../{file}) |"
+            f"| {_link(claim.page)} | [{test}](../{file}) |"
         )
     return "\n".join(lines) + "\n"
+
+
+def _unchecked(rows: Uncovered) -> str:
+    if not rows.measured:
+        return ""
+    return "".join(
+        f"| {_link(page)} | {'; '.join(words)} | {rows.reason} |\n"
+        for page, words in rows.words.items()
+    )
+
+
+def _link(page: str) -> str:
+    folder, _, title = page.rpartition("/")
+    if not folder:
+        return f"`{title}`"  # the guide holds docs/ alone
+    return f"[{title}]({page.removeprefix('docs/')})"

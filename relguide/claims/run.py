@@ -1,6 +1,7 @@
 """Claims checked: each command run once, and each number held against what is claimed."""
 
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -18,8 +19,10 @@ POLL = 0.5
 """How often a command that runs is looked at [s]."""
 WIDTH = "200"
 """Of the terminal that commands print for [characters], so that no table is wrapped."""
-MISSING = "pip install"
-"""In what a command says that misses a package."""
+MISSING = re.compile(
+    r"pip install|^ModuleNotFoundError: No module named '(?!(relguide|benchmarks|tests|tools)\b)"
+)
+"""In the last words of a command that misses a package of others."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,11 @@ class Checked:
     def ok(self) -> bool:
         """Whether it holds; what did not run does not."""
         return self.obtained is not None and self.claim.holds(self.obtained)
+
+    @property
+    def measured(self) -> bool:
+        """Whether its command ran; a table that was only read measures nothing."""
+        return self.ran and self.claim.runs != "kept"
 
     @property
     def failed(self) -> bool:
@@ -155,7 +163,7 @@ def _run(command: str, root: Path | None) -> Iterator[float | subprocess.Complet
 
 def _judge(claim: Claim, done: subprocess.CompletedProcess[str]) -> Checked:
     last = (done.stderr.strip().splitlines() or [""])[-1]
-    if done.returncode > 1 and MISSING in done.stderr:
+    if done.returncode and MISSING.search(last):
         return Checked(claim, why=last, ran=False)
     if done.returncode not in (0, 1):  # 1: no plan or a failed check, which is a result too
         return Checked(claim, why=f"It ended with the exit status {done.returncode}. {last}")

@@ -127,14 +127,14 @@ def margins_cells() -> Cells:
     for name, loop in LOOPS.items():
         found = [margins(loop(model)) for model in MODELS]
         plain, *others = found
-        gains = ", ".join(f"{one.gain:.0f}" for one in others)
+        gains = ", ".join(f"{one.gain:.1f}" for one in others)
         phases = ", ".join(f"{one.phase:.0f}°" for one in others)
         cells.append(
             [
                 name,
                 f"{plain.crossover:.3f}",
                 f"{plain.delay:.1f} s",
-                f"× {plain.gain:.0f} ({gains})",
+                f"× {plain.gain:.1f} ({gains})",
                 f"{plain.phase:.0f}° ({phases})",
             ]
         )

@@ -1,6 +1,7 @@
 """Each row of the registry names what exists, and its page says its number."""
 
 import ast
+import csv
 import re
 from functools import cache
 from importlib.util import find_spec
@@ -68,6 +69,22 @@ def test_claims_of_one_command_agree_on_its_minutes() -> None:
     assert len(minutes) == len({command for command, _ in minutes})
 
 
+def test_a_row_of_a_table_was_measured_by_the_command_that_its_claim_names() -> None:
+    for claim in all_claims():
+        reading = claim.reading
+        if claim.runs != "kept" or reading.table not in ("effort.csv", "proofs.csv"):
+            continue
+        with (ROOT / "benchmarks" / "results" / reading.table).open(encoding="utf-8") as file:
+            rows = [row for row in csv.DictReader(file) if matches(row, reading)]
+        assert rows, claim.name
+        for row in rows:
+            assert row["command"].startswith(claim.command.partition(" (seeds")[0]), claim.name
+
+
+def matches(row: dict[str, str], reading: Reading) -> bool:
+    return all(re.fullmatch(told, row[name]) for name, told in reading.where)
+
+
 def test_quick_ones_take_five_minutes_at_most() -> None:
     quick = {claim.command: claim.minutes for claim in all_claims() if claim.runs == "quick"}
     assert sum(quick.values()) <= 5.0
@@ -102,10 +119,12 @@ def test_a_wrong_row_is_refused(wrong: dict[str, object], why: str) -> None:
 
 def test_a_name_that_does_not_exist_is_refused_with_the_one_that_was_meant() -> None:
     assert [claim.name for claim in named_claims(["fig-6a-joins"])] == ["fig-6a-joins"]
-    with pytest.raises(ValueError, match=r"no claim fig-6a-join: is fig-6a-joins meant\?"):
+    with pytest.raises(ValueError, match=r'no claim "fig-6a-join": is fig-6a-joins meant\?'):
         named_claims(["fig-6a-join"])
     with pytest.raises(ValueError, match=r"docs/claims\.md lists all"):
         named_claims(["zzzzzzzzzz"])
+    with pytest.raises(ValueError, match='There is no claim "":'):
+        named_claims([""])
 
 
 def test_the_registry_goes_with_the_library() -> None:
