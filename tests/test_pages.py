@@ -8,6 +8,7 @@ import shlex
 import xml.etree.ElementTree as ET
 from contextlib import redirect_stdout
 from dataclasses import replace
+from datetime import UTC, datetime
 from importlib import import_module
 from math import degrees
 from pathlib import Path
@@ -26,7 +27,7 @@ from relguide.flying.documents import FlightEnded
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
 from tests.pages import ROOT, blocks, fenced, pages
-from tests.server.serving import serve
+from tests.server.serving import TestClient, serve
 
 DOCS = ROOT / "docs"
 SERVICE, COMMANDS, FLIGHT, NETWORK, PAPER, MAP = (
@@ -59,6 +60,27 @@ def test_the_client_that_does_not_wait() -> None:
     assert len(lines) == 6
     assert all(re.fullmatch(r"[LR]S[LR] in \d+ s", line) for line in lines[:3])
     assert lines[3:] == ["planned"] * 3
+
+
+def test_the_requests_of_the_controllers_page() -> None:
+    (asked,) = [
+        block for block in blocks((DOCS / "atc.md").read_text(), "sh") if "/traffic" in block
+    ]
+    bodies = re.findall(
+        r"curl -X PUT '?localhost:8000(\S+?)'? -H 'Content-Type: (\S+)' -d (.*?)(?=\ncurl|\Z)",
+        asked,
+        re.DOTALL,
+    )
+    assert len(bodies) == 2
+    with TestClient(create_app(ServiceSettings(workers=0))) as client:
+        for path, kind, given in bodies:
+            if given.startswith("@"):
+                body = (ROOT / given[1:].strip()).read_text()
+            else:
+                now = datetime.now(UTC).strftime("%FT%TZ")
+                body = given.strip().strip("'").replace("'$(date -u +%FT%TZ)'", now)
+            answered = client.put(path, content=body, headers={"Content-Type": kind})
+            assert answered.status_code == 200, answered.text
 
 
 def test_the_answer_amid_others() -> None:

@@ -127,9 +127,10 @@ class ServiceSettings(BaseSettings):
     records: Annotated[Literal["on", "off"], Unit("on|off")] = "on"
     """Whether flights, commands and plans asked for are kept."""
     database_url: Annotated[str, Unit("URL")] = ""
-    """Where: sqlite:///FILE or postgresql://USER:PASSWORD@HOST/NAME. A file in `data` if empty."""
+    """Of the records: sqlite:///FILE or postgresql://USER:PASSWORD@HOST/NAME. A file in `data` if
+    empty."""
     data: Annotated[str, Unit("FOLDER")] = ""
-    """The folder of that file; the user's own folder for data if empty."""
+    """The folder of the records' file; the user's own folder for data if empty."""
     record_plans: Annotated[CountOrNone, Unit("PLANS/S")] = 200
     """Plans a second that are kept; 0: none."""
     keep_days: Annotated[Positive, Unit("DAYS")] = 30.0

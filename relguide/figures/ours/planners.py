@@ -86,7 +86,7 @@ def draw(step: Step) -> Drawn:
     counts = {row["name"]: row["cases"] for row in read_results(WITH)}
     return Drawn(
         figure,
-        f"Without the limit {read_results(WITHOUT)[0]['cases']} golden cases, where it binds "
+        f"Without the limit {read_results(WITHOUT)[0]['cases']} cases, where it binds "
         f"{sum(int(n) for name, n in counts.items() if name.startswith(OURS))}; CPU seconds of one "
         f"machine. `{WITHOUT}` and `{WITH}`, made by `{MAKER}`.",
     )

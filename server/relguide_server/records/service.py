@@ -201,7 +201,7 @@ def records_service(
     Args:
         records: `on` or `off`.
         database_url: where; a file of its own if empty.
-        data: the folder of that file; the user's folder for data if empty.
+        data: the folder of the records' file; the user's folder for data if empty.
         record_plans: plans a second that are kept.
         keep_days: how long records are kept.
         keep_mb: how much the documents of flights may take.
