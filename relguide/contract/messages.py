@@ -118,6 +118,7 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
     model = create_model(
         document_type.__name__, __base__=Strict, __doc__=document_type.__doc__, **members
     )
+    model.always_written = frozenset(f.wire_name for f in wire_fields(document_type) if f.promised)
     _MODELS[document_type], _DATACLASSES[model] = model, document_type
     return model
 

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError
 from pydantic_core import CoreSchema
@@ -28,6 +28,8 @@ TAG = "#"
 class Strict(BaseModel):
     """The base of all outside shapes: nothing is converted, and nothing unknown is accepted."""
 
+    always_written: ClassVar[frozenset[str]] = frozenset()
+    """Fields that are described as required, though what was written before may lack them."""
     model_config = ConfigDict(
         strict=True,
         extra="forbid",
@@ -45,7 +47,13 @@ class Strict(BaseModel):
         pydantic's own way reads the sources of each shape as it is defined, schema or not.
         """
         described = handler(schema)
-        members = handler.resolve_ref_schema(described).get("properties", {})
+        shape = handler.resolve_ref_schema(described)
+        members = shape.get("properties", {})
+        if cls.always_written:
+            needed = {*cls.always_written, *shape.get("required", ())}
+            shape["required"] = [name for name in members if name in needed]
+            for name in cls.always_written:
+                members[name].pop("default", None)
         for owner in reversed(cls.__mro__):
             if issubclass(owner, Strict) and owner is not Strict:
                 for name, doc in field_docs(owner).items():

@@ -54,13 +54,20 @@ def _interface(model: type[BaseModel], names: Mapping[Any, str], *, docs: bool) 
     lines = [_doc(model.__doc__ or "", "") * docs + f"export interface {model.__name__} {{\n"]
     for name, field in model.model_fields.items():
         lines.append(_doc(field.description or "", "  ") * docs)
-        lines.append(_member(name, field, names))
+        lines.append(
+            _member(
+                name,
+                field,
+                names,
+                there=name in getattr(model, "always_written", ()) or field.is_required(),
+            )
+        )
     return "".join([*lines, "}\n"])
 
 
-def _member(name: str, field: FieldInfo, names: Mapping[Any, str]) -> str:
+def _member(name: str, field: FieldInfo, names: Mapping[Any, str], *, there: bool) -> str:
     # What a server sends with a default may be left out by who sends it to the server.
-    optional = "" if field.is_required() else "?"
+    optional = "" if there else "?"
     line = f"  {name}{optional}: {_type(field.annotation, names)};\n"
     if len(line) <= LINE_WIDTH + 1:
         return line

@@ -25,7 +25,7 @@ from pydantic_core import to_json
 
 from relguide.contract.compass import compass
 from relguide.contract.docs import field_docs
-from relguide.flying.plan_documents import ADDED, LEFT_OUT
+from relguide.flying.plan_documents import ADDED, LEFT_OUT, PROMISED
 
 if TYPE_CHECKING:  # most of what can be written is never needed where plans are made
     from relguide.atc.documents import AtcDocument, ClearanceCard, TrackCard, ValidationCard
@@ -119,6 +119,8 @@ class WireField:
     """JSON value where a recording of before has none; `...` for a field that is always there."""
     left_out: bool = False
     """Whether it is written only where it is not its default."""
+    promised: bool = False
+    """Whether it is described as always there, though recordings of before may lack it."""
     default: Any = None
     """In Python, of a field that may be left out."""
 
@@ -269,12 +271,13 @@ def _describe(field: Field[Any], hint: Any, owner: type[Any]) -> WireField:
         decode_number=decode,
         missing=_missing(field, encode),
         left_out=field.metadata == LEFT_OUT,
+        promised=field.metadata == PROMISED,
         default=field.default,
     )
 
 
 def _missing(field: Field[Any], encode: Convert) -> Any:
-    if field.metadata not in (ADDED, LEFT_OUT):
+    if field.metadata not in (ADDED, LEFT_OUT, PROMISED):
         return ...
     return None if field.default is None else encode(field.default)
 

@@ -13,7 +13,7 @@ from relguide.flying.engagement import Engagement as Engagement
 from relguide.flying.guidance.announcements import AlertLevel as AlertLevel
 from relguide.flying.guidance.announcements import AlertState as AlertState
 from relguide.flying.modes import Mode as Mode
-from relguide.flying.plan_documents import ADDED, LEFT_OUT, PathPoint
+from relguide.flying.plan_documents import LEFT_OUT, PROMISED, PathPoint
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 Spacing = Literal["distance", "time"]
@@ -163,7 +163,7 @@ class GuidanceSample:
     """How long ago the leader was last heard of."""
     engagement: Engagement = "engaged"
     """How far the crew has engaged it."""
-    margin: Metre = field(default=0.0, metadata=ADDED)
+    margin: Metre = field(default=0.0, metadata=PROMISED)
     """What guidance keeps beside d_min for what it is not certain of, and while the crew flies by
     hand; 0 where all is exact."""
     autopilot: bool = field(default=True, metadata=LEFT_OUT)
@@ -245,12 +245,12 @@ class LinkResult:
     track: Metre
     """Distance flown over the ground until joined."""
     losses: tuple[Loss, ...]
-    optimum: Second = field(default=0.0, metadata=ADDED)
+    optimum: Second = field(default=0.0, metadata=PROMISED)
     """Time to converge of the fastest plan from the start, with the bank that was asked for and all
     that the leader was to fly; 0 where there is none, or the leader is recorded."""
-    along_error: Metre = field(default=0.0, metadata=ADDED)
+    along_error: Metre = field(default=0.0, metadata=PROMISED)
     """Largest distance along the route from where it should be, while it followed."""
-    across_error: Metre = field(default=0.0, metadata=ADDED)
+    across_error: Metre = field(default=0.0, metadata=PROMISED)
     """Largest distance beside the route, while it followed."""
     least_other: tuple[ClosestOther, ...] = field(default=(), metadata=LEFT_OUT)
     """Of all others the one that it came nearest to, measured by what was to be kept; none where

@@ -13,6 +13,8 @@ Direction = Literal["left", "right"]
 Passes = Literal["behind", "ahead"]
 ADDED = {"added": True}
 """Metadata of a field that documents did not always have: without it they read as its default."""
+PROMISED = {"promised": True}
+"""Metadata of such a field that all documents of this version's stream have."""
 LEFT_OUT = {"left_out": True}
 """Metadata of a field that is written only where it is not its default: else there is nothing."""
 

@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-10225e7ecc98";
+export const PROTOCOL = "relguide-cdf436e5d354";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -1206,7 +1206,7 @@ export interface GuidanceSample {
    * What guidance keeps beside d_min for what it is not certain of, and while the crew flies by
    * hand; 0 where all is exact.
    */
-  margin_m?: number;
+  margin_m: number;
   /** Whether the autopilot flies the pursuer; if not, its crew does by hand. */
   autopilot?: boolean;
   /** Whether the flight director is on. */
@@ -1507,11 +1507,11 @@ export interface LinkResult {
    * Time to converge of the fastest plan from the start, with the bank that was asked for and all
    * that the leader was to fly; 0 where there is none, or the leader is recorded.
    */
-  optimum_s?: number;
+  optimum_s: number;
   /** Largest distance along the route from where it should be, while it followed. */
-  along_error_m?: number;
+  along_error_m: number;
   /** Largest distance beside the route, while it followed. */
-  across_error_m?: number;
+  across_error_m: number;
   /**
    * Of all others the one that it came nearest to, measured by what was to be kept; none where
    * there are no others.

@@ -68,7 +68,8 @@ def program_of(
                 rows.append((STRAIGHT, t, 0.0))
             case TurnTo(heading=to, turn=turn, bank=bank):
                 angle = wrap(-turn * (to - now))
-                angle = 0.0 if angle > 2.0 * pi - ROUNDED else angle
+                if angle > 2.0 * pi - ROUNDED:
+                    angle -= 2.0 * pi  # by rounding: it is there already
                 rate = turn_rate(tas, bank)
                 match flown[-2:]:
                     case [TurnTo() as before, FlyStraight(duration=pause)] if (
@@ -83,7 +84,7 @@ def program_of(
                     case _:
                         pass
                 now -= turn * angle
-                t += angle / rate
+                t += max(angle, 0.0) / rate
                 rows.append((TURN, now, -turn * bank))
         flown.append(piece)
     return Program(tuple(flown), np.array(rows).reshape(-1, 3), heading, tuple(levels))

@@ -103,14 +103,13 @@ function Headline(props: {
 
 function Outcome(props: { ended: LinkResult }) {
   const { ended } = props;
-  const { optimum_s = 0 } = ended;
   return (
     <div class="headline">
       <span class="headline-label">{ended.joined ? "Joined at" : "Ended, not joined"}</span>
       <span class="headline-figure">{formatClock(ended.join_time_s)}</span>
       <span class="headline-note">
         planned {formatClock(ended.planned_time_s)}
-        {ended.joined && optimum_s > 0 && ` · fastest ${formatClock(optimum_s)}`} ·{" "}
+        {ended.joined && ended.optimum_s > 0 && ` · fastest ${formatClock(ended.optimum_s)}`} ·{" "}
         {formatMiles(ended.track_m)} NM
       </span>
     </div>

@@ -33,8 +33,7 @@ export interface PairCard
 }
 
 /** The two at one instant, and all others. */
-export interface PairSample extends Omit<GuidanceSample, "ident" | "leader" | "margin_m"> {
-  readonly margin_m: number;
+export interface PairSample extends Omit<GuidanceSample, "ident" | "leader"> {
   readonly t_s: number;
   readonly pursuer: AircraftSample;
   readonly leader: AircraftSample;
@@ -62,9 +61,9 @@ export function pairSample(sample: Sample, pair: PairCard): PairSample | null {
   const leader = withIdent(sample.aircraft, pair.leader.ident);
   const guidance = withIdent(sample.guidance, pair.pursuer.ident);
   if (pursuer === null || leader === null || guidance === null) return null;
-  const { ident: _, margin_m = 0, ...seen } = guidance; // recordings of 0.2 have no margin
+  const { ident: _, ...seen } = guidance;
   const others = beside(sample.aircraft, { pursuer: pursuer.ident, leader: leader.ident });
-  return { ...seen, margin_m, t_s: sample.t_s, pursuer, leader, others };
+  return { ...seen, t_s: sample.t_s, pursuer, leader, others };
 }
 
 /** All but the two. */

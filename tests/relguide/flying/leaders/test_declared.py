@@ -4,7 +4,7 @@ from math import hypot, pi
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from relguide.flying.leaders.declared import Program, program_of, remaining, turn_program
@@ -40,6 +40,7 @@ intents = st.lists(
 ).map(tuple)
 
 
+@example((TurnTo(heading=1.7e-8, turn=LEFT, bank=0.2),), 0.0, 0.0)
 @given(intents, st.floats(-20.0, 20.0), st.floats(0.0, 900.0))
 def test_a_program_turns_as_far_and_lasts_as_long_as_its_intent(
     pieces: tuple[IntentPiece, ...], heading: float, t: float
