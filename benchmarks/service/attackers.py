@@ -173,11 +173,13 @@ async def _any_stream(port: int, address: str) -> str:
 
 async def _flights(port: int, address: str) -> list[dict[str, str]]:
     reader, writer = await asyncio.open_connection("127.0.0.1", port, local_addr=(address, 0))
-    writer.write(request("GET", "/api/v1/flights"))
-    head = await reader.readuntil(b"\r\n\r\n")
-    size = int(head.lower().partition(b"content-length:")[2].partition(b"\r\n")[0])
-    listed: list[dict[str, str]] = json.loads(await reader.readexactly(size))["flights"]
-    writer.transport.abort()
+    try:
+        writer.write(request("GET", "/api/v1/flights"))
+        head = await reader.readuntil(b"\r\n\r\n")
+        size = int(head.lower().partition(b"content-length:")[2].partition(b"\r\n")[0])
+        listed: list[dict[str, str]] = json.loads(await reader.readexactly(size))["flights"]
+    finally:
+        writer.transport.abort()
     return listed
 
 

@@ -193,8 +193,8 @@ def test_far_too_many_are_closed_unheard_and_keep_nobody_out(address: str) -> No
         for _ in range(TOLD):  # which say nothing
             stack.enter_context(connected(address, "127.0.0.2"))
         time.sleep(0.2)
-        with connected(address, "127.0.0.2") as late, pytest.raises(ConnectionError):
-            ask(late)
+        with pytest.raises(ConnectionError), connected(address, "127.0.0.2") as late:
+            ask(late)  # if it was not closed while it connected
         with connected(address, "127.0.0.3") as other:
             assert ask(other)[0] == 200
     assert httpx.get(f"http://{address}/healthz").is_success
