@@ -61,14 +61,26 @@ DEFAULT_TYPE = "A306"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeclaredLeader:
-    """A leader that flies the intent of the scenario's situation."""
+    """A leader that flies the intent of the scenario's situation.
+
+    Examples:
+        >>> rg.scenario("fig_6b").leader_source
+        DeclaredLeader(kind='declared')
+    """
 
     kind: Literal["declared"] = "declared"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario:
-    """A flight that can be flown: where all begin, and what the leader will do."""
+    """A flight that can be flown: where all begin, and what the leader will do.
+
+    Examples:
+        >>> from dataclasses import replace
+        >>> gusty = replace(rg.scenario("fig_6b"), name="gusty", gusts=1.5, pursuer_weight=130e3)
+        >>> gusty.air.gusts  # [m/s]
+        1.5
+    """
 
     name: str
     title: str
@@ -193,6 +205,20 @@ def fly(
         >>> *_, end = rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0)
         >>> end.message
         'Joined, and followed for 120 s.'
+
+        With orders by flight time:
+
+        >>> orders = {
+        ...     60.0: [rg.LeaderHeading(heading=2.0), rg.LeaderSpeed(tas=190.0)],
+        ...     90.0: [rg.LeaderLevel(altitude=9_000.0), rg.IntentKnown(known=True)],
+        ...     120.0: [rg.SetSpacing(slot_distance=12e3), rg.PursuerBank(bank=0.35)],
+        ...     150.0: [rg.LeaderData(received=False), rg.SetDirector(on=False)],
+        ... }
+        >>> from dataclasses import replace
+        >>> begins = replace(rg.scenario("fig_6a"), duration_limit=160.0)
+        >>> flown = rg.fly(begins, commands=lambda t: orders.get(t, ()), sample_period=1.0)
+        >>> [said.change for said in flown if isinstance(said, rg.LeaderChanged)]
+        ['heading', 'speed', 'level', 'intent_received']
 
     Args:
         scenario: what to fly.

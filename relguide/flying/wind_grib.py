@@ -19,6 +19,10 @@ def load_grib(path: Path | str, lat: float, lon: float) -> WindProfile:
     Each level stands at its pressure altitude, as altimeters show it. Read are the components u and
     v on levels `isobaricInhPa`, of one time.
 
+    Examples:
+        >>> rg.load_grib("gfs.grib2", lat=48.7, lon=2.4).at(9_449.0)  # doctest: +SKIP
+        Wind(east=31.2, north=-4.6)
+
     Args:
         path: the file.
         lat: latitude [°].
