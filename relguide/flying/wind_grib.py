@@ -20,8 +20,8 @@ def load_grib(path: Path | str, lat: float, lon: float) -> WindProfile:
     v on levels `isobaricInhPa`, of one time.
 
     Examples:
-        >>> rg.load_grib("gfs.grib2", lat=48.7, lon=2.4).at(9_449.0)  # doctest: +SKIP
-        Wind(east=31.2, north=-4.6)
+        >>> winds = rg.load_grib("gfs.grib2", lat=48.7, lon=2.4)  # doctest: +SKIP
+        >>> air = rg.Air(profile=winds)  # doctest: +SKIP
 
     Args:
         path: the file.
