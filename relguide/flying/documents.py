@@ -491,3 +491,4 @@ Document = (
     | Sample
     | FlightEnded
 )
+"""What a flight says, in order of time: `fly` and `replay` yield them."""

@@ -225,7 +225,7 @@ def fly(
         planner: the exact one if left out. It is asked at engagement, whenever the leader does
             something new, and for better paths as `Settings.ask_every` says. Its plans are judged
             before they are flown.
-        commands: polled once a second with the flight time; its commands take effect at once.
+        commands: polled once a second with the flight time [s]; its commands take effect at once.
         step: integration step [s]; a whole number of steps makes a second.
         sample_period: between samples [s]; a whole number of steps.
         seed: 0 flies the types as their data say; any other draws the pursuer's constants within
@@ -235,8 +235,8 @@ def fly(
         guidance: relguide's, or a baseline, which asks no planner.
         planner_name: who makes the plans, as `FlightStarted` says; if left out, a planner other
             than `plan` is asked once more, to learn what name its plans give it.
-        wants_fan: asked with the flight time when a fan of joins (`FanChanged`) is due, while the
-            leader's intent is not known; by default there is none.
+        wants_fan: asked with the flight time [s] when a fan of joins (`FanChanged`) is due, while
+            the leader's intent is not known; by default there is none.
 
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.

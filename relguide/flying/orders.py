@@ -345,6 +345,7 @@ CrewCommand = (
 )
 """What a pursuer's crew does, and what it receives."""
 Command = LeaderCommand | CrewCommand
+"""An order to a flight: `fly` polls for them."""
 
 
 def no_commands(t: Second) -> Iterable[Command]:

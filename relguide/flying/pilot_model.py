@@ -86,7 +86,7 @@ class PilotModel:
         )
 
     def row(self, step: Second) -> NDArray[np.float64]:
-        """Its row of `hands` for a step of the integration, as it begins."""
+        """Its row of `hands` for a step of the integration [s], as it begins."""
         row = np.zeros(by_hand.columns(step))
         row[by_hand.BANDWIDTH], row[by_hand.LEAD] = self.bandwidth, self.lead
         row[by_hand.LAG] = self.delay / step

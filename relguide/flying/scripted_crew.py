@@ -50,7 +50,7 @@ class CrewOrder:
     """What a crew orders, and when: some time after its cue.
 
     Examples:
-        >>> rolls = rg.CrewOrder(command=rg.PursuerHeading(heading=1.2), on="alert", after=5.0)
+        >>> turns = rg.CrewOrder(command=rg.PursuerHeading(heading=1.2), on="alert", after=5.0)
         >>> slows = rg.CrewOrder(command=rg.PursuerSpeed(tas=220.0), after=300.0)
     """
 
@@ -135,7 +135,7 @@ class ScriptedCrew:
                 self._cue(ident, "alert", document.t)
 
     def commands(self, t: Second) -> Iterator[CrewCommand]:
-        """What is due, in the order of the times: `fly` polls for it."""
+        """What is due at a flight time [s], in the order of the times: `fly` polls for it."""
         due = [
             (cued + self._script[n].after, n)
             for n, cued in self._cued.items()

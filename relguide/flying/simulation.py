@@ -116,8 +116,8 @@ def simulate(
         scenario: the flight's name.
         title: the same for people.
         planner_name: who makes the plans, as their cards say.
-        commands: polled once a second with the flight time; each is for the aircraft that it names,
-            or else for the first link.
+        commands: polled once a second with the flight time [s]; each is for the aircraft that it
+            names, or else for the first link.
         step: integration step [s]; a whole number of steps makes a second.
         sample_period: between samples [s]; a whole number of steps.
         seed: from which the world was drawn; written into the first document.
@@ -126,8 +126,8 @@ def simulate(
         engagement: how far guidance is engaged at the start.
         guidance: of all pursuers: relguide's, or a baseline, which asks no planner and is named in
             its place.
-        wants_fan: asked with the flight time when a fan of joins is due, while a leader's intent is
-            not known; by default there is none.
+        wants_fan: asked with the flight time [s] when a fan of joins is due, while a leader's
+            intent is not known; by default there is none.
 
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.

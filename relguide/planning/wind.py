@@ -11,7 +11,7 @@ from relguide.units import MetrePerSecond
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Wind:
-    """Uniform wind: the velocity of the air mass over the ground, toward where it blows.
+    """Uniform wind: the velocity of the air mass over the ground.
 
     Examples:
         >>> rg.Wind(east=20.0, north=-15.0).speed  # [m/s], from north-west

@@ -38,9 +38,9 @@ class Settings:
     [m/s], `Radian` [rad], `RadianPerSecond` [rad/s]; shares and the damping are numbers [1].
 
     Examples:
-        >>> gentle = rg.Settings(bank_in_hand=0.09)  # 5° below what the autopilot may use
-        >>> round(gentle.planned_bank(0.44), 3)  # [rad]
-        0.396
+        >>> gentle = rg.Settings(bank_in_hand=0.09, bank_in_hand_share=0.25)
+        >>> round(gentle.planned_bank(0.44), 2)  # where the autopilot may use 0.44 rad [rad]
+        0.35
     """
 
     bank_in_hand: Radian = 2.5 * DEG
