@@ -9,6 +9,8 @@ import xml.etree.ElementTree as ET
 from contextlib import redirect_stdout
 from importlib import import_module
 from pathlib import Path
+from types import FunctionType
+from typing import get_args
 
 import pytest
 from relguide_server.app import create_app
@@ -26,6 +28,15 @@ APART = {"cluster", "proxy"}
 """Pages that need a service or a cluster."""
 NOTEBOOKS = sorted((ROOT / "examples").glob("*.ipynb"))
 REFERENCE = sorted((DOCS / "reference").glob("*.md"))
+DOCUMENTS = {kind.__name__ for kind in get_args(relguide.Document)}
+ORDERS = {kind.__name__ for kind in get_args(relguide.Command)}
+"""Their docstrings are also those of JSON, which has no Python: others' examples give them."""
+RESULTS = {
+    "Alternative", "Arrival", "Candidate", "Certificate", "Isochrones", "Optimality",
+    "OptimalityReport", "Samples", "TimeRow", "Times",
+}  # fmt: skip
+"""Made by functions, whose examples show them."""
+WITHOUT_EXAMPLE = DOCUMENTS | ORDERS | RESULTS
 
 
 @pytest.fixture
@@ -107,6 +118,18 @@ def test_examples_of_public_names_are_right(module: str, folder: Path) -> None:
         if found.name.removeprefix(f"{module}.").partition(".")[0] in public:
             result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(found)
             assert result.failed == 0, found.name
+
+
+def test_each_public_name_that_is_called_has_an_example() -> None:
+    finder, shown = doctest.DocTestFinder(), dict[str, str]()
+    for name in relguide.__all__:
+        value = getattr(relguide, name)
+        if isinstance(value, type | FunctionType):
+            found = finder.find(value, name)
+            shown[name] = "".join(example.source for test in found for example in test.examples)
+    assert {name for name, example in shown.items() if not example} == WITHOUT_EXAMPLE & {*shown}
+    everywhere = "".join(shown.values())
+    assert [name for name in sorted(ORDERS & {*shown}) if f"rg.{name}(" not in everywhere] == []
 
 
 def test_each_page_is_in_the_navigation() -> None:

@@ -69,6 +69,11 @@ def replay(file: Path | str) -> Iterator[Document]:
 
     From a damaged file the readable documents come first, then the error.
 
+    Examples:
+        >>> *_, end = rg.record(rg.fly(rg.scenario("fig_6b"), sample_period=1.0), "flight.jsonl.gz")
+        >>> next(rg.replay("flight.jsonl.gz")).title
+        "Fig. 6b: the leader's intent is known"
+
     Raises:
         RecordingError: naming the first line that is not a document.
         OSError: if the file cannot be opened.

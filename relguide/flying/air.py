@@ -97,32 +97,38 @@ class Air:
         return self.wind if self.profile is None else self.profile.at(altitude)
 
     def temperature(self, altitude: Metre) -> float:
-        """Static air temperature T [K]."""
+        """Static air temperature T [K] at a pressure altitude [m]."""
         return standard_temperature(altitude) + self.isa_deviation
 
     def density(self, altitude: Metre) -> float:
-        """Density ρ = p/(R T) [kg/m³]."""
+        """Density ρ = p/(R T) [kg/m³] at a pressure altitude [m]."""
         return pressure(altitude) / (GAS_CONSTANT * self.temperature(altitude))
 
     def sound_speed(self, altitude: Metre) -> MetrePerSecond:
-        """Speed of sound a = √(γ R T) [m/s]."""
+        """Speed of sound a = √(γ R T) [m/s] at a pressure altitude [m]."""
         return sqrt(GAMMA * GAS_CONSTANT * self.temperature(altitude))
 
     def mach(self, tas: MetrePerSecond, altitude: Metre) -> float:
-        """Mach number of a true airspeed."""
+        """Mach number [1] of a true airspeed [m/s] at a pressure altitude [m]."""
         return tas / self.sound_speed(altitude)
 
     def tas_from_mach(self, mach: float, altitude: Metre) -> MetrePerSecond:
-        """True airspeed of a Mach number [m/s]."""
+        """True airspeed [m/s] of a Mach number [1] at a pressure altitude [m]."""
         return mach * self.sound_speed(altitude)
 
     def tas_from_cas(self, cas: MetrePerSecond, altitude: Metre) -> MetrePerSecond:
-        """True airspeed of a calibrated airspeed [m/s], both below the speed of sound."""
+        """True airspeed [m/s] of a calibrated airspeed [m/s] at a pressure altitude [m].
+
+        Both are below the speed of sound.
+        """
         impact = _impact_pressure(cas / SEA_LEVEL_SOUND_SPEED, SEA_LEVEL_PRESSURE)
         return self.tas_from_mach(_mach_from_impact(impact, pressure(altitude)), altitude)
 
     def cas_from_tas(self, tas: MetrePerSecond, altitude: Metre) -> MetrePerSecond:
-        """Calibrated airspeed of a true airspeed [m/s], both below the speed of sound."""
+        """Calibrated airspeed [m/s] of a true airspeed [m/s] at a pressure altitude [m].
+
+        Both are below the speed of sound.
+        """
         impact = _impact_pressure(self.mach(tas, altitude), pressure(altitude))
         return SEA_LEVEL_SOUND_SPEED * _mach_from_impact(impact, SEA_LEVEL_PRESSURE)
 

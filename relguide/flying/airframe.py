@@ -68,7 +68,13 @@ class Energy(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Airframe:
-    """An aircraft type, flown clean by its autopilot."""
+    """An aircraft type, flown clean by its autopilot.
+
+    Examples:
+        >>> can = rg.airframe("A306").tas_range(9_449.0, rg.Air(), bank=0.4)
+        >>> round(can.most)  # [m/s]
+        248
+    """
 
     designator: str
     """ICAO type designator."""
@@ -91,15 +97,15 @@ class Airframe:
     wing_area: float
     """S [m²]."""
     zero_lift_drag: float
-    """C_D0, clean."""
+    """C_D0, clean [1]."""
     induced_drag: float
-    """k of C_D = C_D0 + k C_L²."""
+    """k of C_D = C_D0 + k C_L² [1]."""
     speed_brake_drag: float
-    """What speed brakes add to C_D0; 0 for an aircraft that has none."""
+    """What speed brakes add to C_D0 [1]; 0 for an aircraft that has none."""
     v_mo: MetrePerSecond
     """Maximum operating speed V_MO, calibrated [m/s]."""
     m_mo: float
-    """Maximum operating Mach number M_MO."""
+    """Maximum operating Mach number M_MO [1]."""
     ceiling: Metre
     """Highest pressure altitude [m]."""
     max_climb: MetrePerSecond
@@ -109,9 +115,9 @@ class Airframe:
     usable_lift: UsableLift
     """With what is kept from stall and buffet."""
     thrust: Thrust
-    """Of all engines."""
+    """Of all engines together [N]."""
     thrust_share: float = 1.0
-    """How much of `thrust` this aircraft gives: 1 by its type."""
+    """How much of `thrust` this aircraft gives [1]: 1 by its type."""
 
     def __post_init__(self) -> None:
         """Refuse what could not fly, and what is likely given in another unit."""
@@ -154,7 +160,7 @@ class Airframe:
         return f"{self.least_weight:,.0f} … {self.most_weight:,.0f} kg"
 
     def expect_weight(self, name: str, weight: Kilogram) -> Kilogram:
-        """The weight, if the type flies at it; 0 stands for its reference weight."""
+        """The weight [kg], if the type flies at it; 0 stands for its reference weight."""
         weight = number(name, weight)
         if weight == 0.0:
             return self.reference_weight
@@ -192,7 +198,15 @@ class Airframe:
         weight: Kilogram = 0.0,
         bank: Radian = 0.0,
     ) -> float:
-        """What climb thrust gives along the path in level flight [m/s²]; negative if too little."""
+        """What climb thrust gives along the path in level flight [m/s²]; negative if too little.
+
+        Args:
+            altitude: pressure altitude [m].
+            tas: true airspeed [m/s].
+            air: its temperature gives the Mach number.
+            weight: [kg]; 0 for the reference weight.
+            bank: of a turn [rad], either way.
+        """
         mach = air.mach(tas, altitude)
         weight = weight or self.reference_weight
         return self._excess(altitude, mach, weight, load_factor(bank)) / weight
@@ -205,14 +219,28 @@ class Airframe:
         weight: Kilogram = 0.0,
         bank: Radian = 0.0,
     ) -> float:
-        """How fast it slows down in level flight at idle, without speed brakes [m/s²]."""
+        """How fast it slows down in level flight at idle, without brakes [m/s²].
+
+        Args:
+            altitude: pressure altitude [m].
+            tas: true airspeed [m/s].
+            air: its temperature gives the Mach number.
+            weight: [kg]; 0 for the reference weight.
+            bank: of a turn [rad], either way.
+        """
         mach = air.mach(tas, altitude)
         weight = weight or self.reference_weight
         idle = self.thrust_share * self.thrust.idle_at(altitude, mach)
         return (self._drag(altitude, mach, weight, load_factor(bank)) - idle) / weight
 
     def energy(self, altitude: Metre, air: Air, weight: Kilogram = 0.0) -> Energy:
-        """Both for all speeds that can be flown, thrust as a parabola of the speed."""
+        """Both for all speeds that can be flown, thrust as a parabola of the speed.
+
+        Args:
+            altitude: pressure altitude [m].
+            air: its temperature gives the Mach number.
+            weight: [kg]; 0 for the reference weight.
+        """
         weight = weight or self.reference_weight
         sound, per_area = air.sound_speed(altitude), 0.5 * air.density(altitude) / weight
         slow, fast = _mach_range(self, altitude, weight, 1.0)
@@ -375,6 +403,12 @@ def _known_airframe(designator: str) -> Airframe:
 
 def load_airframe(path: str | PathLike[str]) -> Airframe:
     """A type from a TOML file of one's own: the keys of `KEYS`, and `[sources]` as far as wanted.
+
+    Examples:
+        >>> from importlib.resources import files
+        >>> own = rg.load_airframe(files("relguide.flying") / "types" / "a306.toml")
+        >>> round(own.max_roll_rate, 3)  # [rad/s]
+        0.065
 
     Raises:
         OSError: where the file cannot be read.

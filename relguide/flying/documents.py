@@ -58,6 +58,7 @@ class FlightStarted:
     """All that is known before the flight: the first document."""
 
     t: Second
+    """Flight time [s]."""
     scenario: str
     title: str
     planner: str
@@ -83,6 +84,7 @@ class LeaderRoute:
     """
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The leader's."""
     expected_by: str
@@ -97,6 +99,7 @@ class LeaderChanged:
     """The leader does something new, or its intent was received or withdrawn."""
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The leader's."""
     change: LeaderChange
@@ -109,6 +112,7 @@ class PlanChanged:
     """A new plan is flown."""
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     reason: PlanReason
@@ -121,11 +125,11 @@ class PlanChanged:
     announced: bool
     """Whether it is news for the crew; if not, its path is drawn and nothing is said."""
     promised: Second
-    """How long until joined, braking included: as forecast by flying the closed loop ahead."""
+    """How long until joined, braking included [s]: as forecast by flying the closed loop ahead."""
     tube: Metre
-    """Largest distance of that forecast from the plan's ideal path."""
+    """Largest distance of that forecast from the plan's ideal path [m]."""
     flown_least: Metre
-    """Least separation of that forecast, which is what must keep d_min."""
+    """Least separation of that forecast [m], which is what must keep d_min."""
     kind: Literal["plan_changed"] = "plan_changed"
 
 
@@ -134,6 +138,7 @@ class PlanProposed:
     """A path that could be flown from now on, if the crew accepts it. It is not flown."""
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     message: str
@@ -143,9 +148,9 @@ class PlanProposed:
     pursuer_at_closest: PathPoint
     """Where the pursuer is then."""
     promised: Second
-    """How long until joined, braking included: as forecast by flying the closed loop ahead."""
+    """How long until joined, braking included [s]: as forecast by flying the closed loop ahead."""
     flown_least: Metre
-    """Least separation of that forecast, which is what must keep d_min."""
+    """Least separation of that forecast [m], which is what must keep d_min."""
     others: tuple[OtherPathCard, ...]
     """Other paths to the slot that could be flown, fastest first: at most three."""
     ahead: tuple[PathAhead, ...] = field(default=(), metadata=LEFT_OUT)
@@ -158,6 +163,7 @@ class EngagementChanged:
     """The crew has engaged guidance further, or less far; or what it ordered could not be done."""
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     engagement: Engagement
@@ -175,6 +181,7 @@ class CommandGiven:
     """
 
     t: Second
+    """Flight time [s]."""
     command: Command
     kind: Literal["command_given"] = "command_given"
 
@@ -187,6 +194,7 @@ class ControlChanged:
     """
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     autopilot: bool
@@ -202,6 +210,7 @@ class AssignmentChanged:
     """The crew has changed what its guidance is to do; or what it ordered could not be done."""
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     slot_distance: Metre
@@ -224,6 +233,7 @@ class ClearanceNews:
     """
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     clearance_id: str
@@ -245,6 +255,7 @@ class PlanUnavailable:
     """Guidance asked for a plan and there is none."""
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     answer: NoPlanCard
@@ -259,6 +270,7 @@ class PlanRefused:
     """
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     planner: str
@@ -273,6 +285,7 @@ class ModeChanged:
     """Guidance went from one mode to another."""
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     mode: Mode
@@ -286,12 +299,13 @@ class PromiseChanged:
     """The pursuer will join at another time than was last said, on the path that it flies."""
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     promised: Second
-    """How long until joined, braking included: as forecast by flying the closed loop ahead."""
+    """How long until joined, braking included [s]: as forecast by flying the closed loop ahead."""
     was: Second = field(default=0.0, metadata=ADDED)
-    """The same as was last said, counted from now; negative if that instant has passed."""
+    """The same as was last said, counted from now [s]; negative if that instant has passed."""
     message: str
     kind: Literal["promise_changed"] = "promise_changed"
 
@@ -304,6 +318,7 @@ class Alert:
     """
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The aircraft whose crew is alerted."""
     other: str
@@ -313,9 +328,9 @@ class Alert:
     subject: AlertSubject
     message: str
     predicted_least: Metre
-    """Least separation from the other ahead, flying on as now."""
+    """Least separation from the other ahead, flying on as now [m]."""
     predicted_at: Second
-    """Flight time of it."""
+    """Flight time of it [s]."""
     cleared: bool
     """Whether the alert ends: nothing stands on this subject any more."""
     kind: Literal["alert"] = "alert"
@@ -326,6 +341,7 @@ class Unable:
     """Guidance cannot do what it is to do, and the crew is informed. Holds until the next plan."""
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     reason: UnableReason
@@ -338,20 +354,21 @@ class SeparationLost:
     """The separation fell below d_min: once for each time it does."""
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     other: str
     """The aircraft that it came too close to."""
     separation: Metre
-    """At this instant."""
+    """At this instant [m]."""
     x: Metre
-    """Where the pursuer is, east."""
+    """Where the pursuer is, east [m]."""
     y: Metre
-    """… and north."""
+    """… and north [m]."""
     cause: str
     """Why, in a sentence."""
     announced: tuple[Second, ...]
-    """When the first alert or `Unable` that came before it was given; empty if there was none."""
+    """Flight time [s] of the first alert or `Unable` that came before it; empty without one."""
     kind: Literal["separation_lost"] = "separation_lost"
 
 
@@ -363,21 +380,25 @@ class ForecastChanged:
     """
 
     t: Second
+    """Flight time [s]."""
     ident: str
     times: tuple[Second, ...]
-    """Flight times, ascending."""
+    """Flight times, ascending [s]."""
     x: tuple[Metre, ...]
+    """East of each point [m]."""
     y: tuple[Metre, ...]
+    """North of each point [m]."""
     heading: tuple[Radian, ...]
+    """Clockwise from north at each point: radians in Python, degrees in JSON."""
     least_separation: Metre
-    """From its leader on the way, the leader flying as expected."""
+    """From its leader on the way [m], the leader flying as expected."""
     pursuer_at_closest: PathPoint
     """Where the aircraft is when the separation is least."""
     leader_at_closest: PathPoint
     """Where its leader is then."""
     aside: tuple[Metre, ...] = field(default=(), metadata=ADDED)
-    """How far to either side of the line it may come at each point, by what is not certain of the
-    leader's track and of the wind (2 σ of what is believed now); none where all is exact."""
+    """How far to either side of the line it may come at each point [m], by what is not certain of
+    the leader's track and of the wind (2 σ of what is believed now); none where all is exact."""
     kind: Literal["forecast_changed"] = "forecast_changed"
 
 
@@ -407,15 +428,16 @@ class FanChanged:
     """
 
     t: Second
+    """Flight time [s]."""
     ident: str
     """The pursuer's."""
     joins: tuple[FanJoin, ...]
     """For turns of −30°, −20° … 30°; those after which there is no path are left out. None at all
     once the intent is known, or the pursuer has joined: the fan is closed."""
     most_saved: Second
-    """By knowing the turn for which that saves the most; 0 where nothing is saved."""
+    """By knowing the turn for which that saves the most [s]; 0 where nothing is saved."""
     mean_saved: Second
-    """On average of all these turns."""
+    """On average of all these turns [s]."""
     kind: Literal["fan_changed"] = "fan_changed"
 
 
@@ -424,6 +446,7 @@ class Sample:
     """The flight at one instant."""
 
     t: Second
+    """Flight time [s]."""
     aircraft: tuple[AircraftSample, ...]
     """In the order of `FlightStarted.aircraft`."""
     guidance: tuple[GuidanceSample, ...]
@@ -436,6 +459,7 @@ class FlightEnded:
     """How the flight went: the last document."""
 
     t: Second
+    """Flight time [s]."""
     reason: EndReason
     message: str
     """The same in a sentence."""
@@ -467,3 +491,4 @@ Document = (
     | Sample
     | FlightEnded
 )
+"""What a flight says, in order of time: `fly` and `replay` yield them."""

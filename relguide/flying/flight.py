@@ -61,14 +61,26 @@ DEFAULT_TYPE = "A306"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeclaredLeader:
-    """A leader that flies the intent of the scenario's situation."""
+    """A leader that flies the intent of the scenario's situation.
+
+    Examples:
+        >>> rg.scenario("fig_6b").leader_source
+        DeclaredLeader(kind='declared')
+    """
 
     kind: Literal["declared"] = "declared"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario:
-    """A flight that can be flown: where all begin, and what the leader will do."""
+    """A flight that can be flown: where all begin, and what the leader will do.
+
+    Examples:
+        >>> from dataclasses import replace
+        >>> gusty = replace(rg.scenario("fig_6b"), name="gusty", gusts=1.5, pursuer_weight=130e3)
+        >>> gusty.air.gusts  # [m/s]
+        1.5
+    """
 
     name: str
     title: str
@@ -194,12 +206,26 @@ def fly(
         >>> end.message
         'Joined, and followed for 120 s.'
 
+        With orders by flight time:
+
+        >>> orders = {
+        ...     60.0: [rg.LeaderHeading(heading=2.0), rg.LeaderSpeed(tas=190.0)],
+        ...     90.0: [rg.LeaderLevel(altitude=9_000.0), rg.IntentKnown(known=True)],
+        ...     120.0: [rg.SetSpacing(slot_distance=12e3), rg.PursuerBank(bank=0.35)],
+        ...     150.0: [rg.LeaderData(received=False), rg.SetDirector(on=False)],
+        ... }
+        >>> from dataclasses import replace
+        >>> begins = replace(rg.scenario("fig_6a"), duration_limit=160.0)
+        >>> flown = rg.fly(begins, commands=lambda t: orders.get(t, ()), sample_period=1.0)
+        >>> [said.change for said in flown if isinstance(said, rg.LeaderChanged)]
+        ['heading', 'speed', 'level', 'intent_received']
+
     Args:
         scenario: what to fly.
         planner: the exact one if left out. It is asked at engagement, whenever the leader does
             something new, and for better paths as `Settings.ask_every` says. Its plans are judged
             before they are flown.
-        commands: polled once a second with the flight time; its commands take effect at once.
+        commands: polled once a second with the flight time [s]; its commands take effect at once.
         step: integration step [s]; a whole number of steps makes a second.
         sample_period: between samples [s]; a whole number of steps.
         seed: 0 flies the types as their data say; any other draws the pursuer's constants within
@@ -209,8 +235,8 @@ def fly(
         guidance: relguide's, or a baseline, which asks no planner.
         planner_name: who makes the plans, as `FlightStarted` says; if left out, a planner other
             than `plan` is asked once more, to learn what name its plans give it.
-        wants_fan: asked with the flight time when a fan of joins (`FanChanged`) is due, while the
-            leader's intent is not known; by default there is none.
+        wants_fan: asked with the flight time [s] when a fan of joins (`FanChanged`) is due, while
+            the leader's intent is not known; by default there is none.
 
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.

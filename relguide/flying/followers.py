@@ -12,7 +12,13 @@ from relguide.units import Kilogram, Metre
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Follower:
-    """A guided aircraft that joins the one before it, as far behind as all of its queue are."""
+    """A guided aircraft that joins the one before it, as far behind as all of its queue are.
+
+    Examples:
+        >>> own = rg.Pursuer(x=-60e3, y=20e3, heading=1.5, tas=235.0, max_bank=0.4)
+        >>> rg.Follower(ident="SECOND", pursuer=own).aircraft(9_449.0, seed=0).altitude  # [m]
+        9449.0
+    """
 
     ident: str
     pursuer: Pursuer

@@ -51,6 +51,7 @@ class LeaderSpeed:
     """An aircraft is to fly at a true airspeed [m/s]. A recorded one leaves its recording."""
 
     tas: MetrePerSecond
+    """True airspeed [m/s]."""
     ident: str = ""
     """Of the aircraft that is to do so; empty for the first link's leader."""
     kind: Literal["leader_speed"] = "leader_speed"
@@ -344,6 +345,7 @@ CrewCommand = (
 )
 """What a pursuer's crew does, and what it receives."""
 Command = LeaderCommand | CrewCommand
+"""An order to a flight: `fly` polls for them."""
 
 
 def no_commands(t: Second) -> Iterable[Command]:

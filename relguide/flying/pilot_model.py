@@ -36,7 +36,13 @@ LEAD = Range(0.0, 2.0, "s")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PilotModel:
-    """The crossover model, Y_p Y_c = ω_c e^(−τ s)/s, with remnant and reaction."""
+    """The crossover model, Y_p Y_c = ω_c e^(−τ s)/s, with remnant and reaction.
+
+    Examples:
+        >>> slow = rg.PilotModel(bandwidth=0.6, reaction=2.5)
+        >>> rg.Guided(by_hand=slow).by_hand.reaction  # [s]
+        2.5
+    """
 
     bandwidth: RadianPerSecond = 1.0
     """ω_c: how fast it answers an error of the bank, over the error [rad/s]."""
@@ -80,7 +86,7 @@ class PilotModel:
         )
 
     def row(self, step: Second) -> NDArray[np.float64]:
-        """Its row of `hands` for a step of the integration, as it begins."""
+        """Its row of `hands` for a step of the integration [s], as it begins."""
         row = np.zeros(by_hand.columns(step))
         row[by_hand.BANDWIDTH], row[by_hand.LEAD] = self.bandwidth, self.lead
         row[by_hand.LAG] = self.delay / step

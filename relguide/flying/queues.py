@@ -111,6 +111,16 @@ def soonest_first(
 ) -> tuple[str, ...]:
     """In which order followers queue up: each place goes to the one that can be there first.
 
+    Examples:
+        >>> from dataclasses import replace
+        >>> leader = rg.Aircraft(
+        ...     ident="A", airframe=rg.airframe("A306"), aircraft_type="A306", pilot=rg.Declared(),
+        ...     x=0.0, y=0.0, heading=1.5, tas=200.0, altitude=9_449.0, max_bank=0.4)
+        >>> b = replace(leader, ident="B", pilot=rg.Guided(), x=-60e3, tas=235.0)
+        >>> c = replace(b, ident="C", x=-40e3)
+        >>> rg.soonest_first((b, c), leader, slot_distance=10e3, min_separation=9_260.0)
+        ('C', 'B')
+
     Args:
         followers: where they begin.
         leader: the head, with its intent.

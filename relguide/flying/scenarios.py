@@ -136,6 +136,12 @@ def scenario_behind(
 
     The pursuer is slower than that where its type cannot fly so fast at the leader's level.
 
+    Examples:
+        >>> from pathlib import Path
+        >>> _ = Path("one.scn").write_text("00:00:00>CRE KL204 A320 52.0,4.0 90 FL310 280")
+        >>> rg.scenario_behind(rg.load_track("one.scn"), behind=40e3).leader_ident
+        'KL204'
+
     Args:
         track: the leader; its heading and speed changes come as they were flown, unannounced.
         behind: where the pursuer begins, back along the leader's first track [m].

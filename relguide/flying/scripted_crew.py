@@ -47,7 +47,12 @@ SLACK: Second = 1e-9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CrewOrder:
-    """What a crew orders, and when: some time after its cue."""
+    """What a crew orders, and when: some time after its cue.
+
+    Examples:
+        >>> turns = rg.CrewOrder(command=rg.PursuerHeading(heading=1.2), on="alert", after=5.0)
+        >>> slows = rg.CrewOrder(command=rg.PursuerSpeed(tas=220.0), after=300.0)
+    """
 
     command: CrewCommand
     on: Cue = "start"
@@ -76,6 +81,14 @@ class ScriptedCrew:
     While an order waits for its time, its cue does not count again. What a cue leads to is ordered
     only where it can follow: a crew that reacts accepts nothing twice, and engages nothing that was
     withdrawn. An engagement that waits is forgotten when another comes first.
+
+    Examples:
+        >>> by_hand = rg.CrewOrder(command=rg.SetAutopilot(on=False))
+        >>> crew = rg.ScriptedCrew([by_hand, rg.CrewOrder(command=rg.Stick(roll=0.2), after=5.0)])
+        >>> flown = rg.fly(rg.scenario("fig_6b"), commands=crew.commands, sample_period=1.0)
+        >>> states = (d.aircraft[0] for d in crew.follow(flown) if isinstance(d, rg.Sample))
+        >>> round(next(own.bank for own in states if own.bank > 0.1), 2)  # [rad]
+        0.11
     """
 
     def __init__(self, script: Sequence[CrewOrder]) -> None:
@@ -122,7 +135,7 @@ class ScriptedCrew:
                 self._cue(ident, "alert", document.t)
 
     def commands(self, t: Second) -> Iterator[CrewCommand]:
-        """What is due, in the order of the times: `fly` polls for it."""
+        """What is due at a flight time [s], in the order of the times: `fly` polls for it."""
         due = [
             (cued + self._script[n].after, n)
             for n, cued in self._cued.items()

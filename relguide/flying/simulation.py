@@ -95,14 +95,29 @@ def simulate(
 ) -> Iterator[Document]:
     """Fly a world and say what happens, in order of time.
 
+    Examples:
+        >>> from dataclasses import replace
+        >>> leader = rg.Aircraft(
+        ...     ident="A", airframe=rg.airframe("A306"), aircraft_type="A306", pilot=rg.Declared(),
+        ...     x=0.0, y=0.0, heading=1.5708, tas=200.0, altitude=9_449.0, max_bank=0.4)
+        >>> own = replace(leader, ident="B", x=-40e3, y=20e3, tas=230.0, pilot=rg.Guided())
+        >>> link = rg.Link(pursuer="B", leader="A", slot_distance=10e3, min_separation=9_260.0)
+        >>> world = rg.World(aircraft=(leader, own), links=(link,))
+        >>> def reports(t):
+        ...     return [rg.LeaderReport(
+        ...         x=200.0 * (t + 1.0), y=0.0, track=1.5708, ground_speed=200.0, altitude=9_449.0)]
+        >>> *_, end = rg.simulate(world, commands=reports, sample_period=1.0)
+        >>> end.message
+        'Joined, and followed for 120 s.'
+
     Args:
         world: who flies, in what air, and who is to join whom.
         planner: makes the plans of all pursuers; they are judged before they are flown.
         scenario: the flight's name.
         title: the same for people.
         planner_name: who makes the plans, as their cards say.
-        commands: polled once a second with the flight time; each is for the aircraft that it names,
-            or else for the first link.
+        commands: polled once a second with the flight time [s]; each is for the aircraft that it
+            names, or else for the first link.
         step: integration step [s]; a whole number of steps makes a second.
         sample_period: between samples [s]; a whole number of steps.
         seed: from which the world was drawn; written into the first document.
@@ -111,8 +126,8 @@ def simulate(
         engagement: how far guidance is engaged at the start.
         guidance: of all pursuers: relguide's, or a baseline, which asks no planner and is named in
             its place.
-        wants_fan: asked with the flight time when a fan of joins is due, while a leader's intent is
-            not known; by default there is none.
+        wants_fan: asked with the flight time [s] when a fan of joins is due, while a leader's
+            intent is not known; by default there is none.
 
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.

@@ -54,7 +54,12 @@ HISTORY = 6
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Surveillance:
-    """How well others are seen."""
+    """How well others are seen.
+
+    Examples:
+        >>> round(rg.Surveillance(kind="adsb", nacp=8).position_sigma)  # [m]
+        38
+    """
 
     kind: Literal["exact", "adsb"] = "exact"
     """`exact`: as they are, and the rest has no meaning."""

@@ -45,7 +45,14 @@ class TrackState(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RecordedTrack:
-    """The airborne part of a recorded track, smooth, in a plane that touches the earth near it."""
+    """The airborne part of a recorded track, smooth, in a plane that touches the earth near it.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> _ = Path("one.scn").write_text("00:00:00>CRE KL204 A320 52.0,4.0 90 FL310 280")
+        >>> round(rg.load_track("one.scn").state_at(60.0).ground_speed)  # [m/s]
+        229
+    """
 
     ident: str
     """Callsign, or the 24-bit address where there is none."""
@@ -62,9 +69,9 @@ class RecordedTrack:
     track: Array
     """Direction of the ground velocity, clockwise from north [rad]; continuous, not wrapped."""
     ground_speed: Array
-    """[m/s]."""
+    """Speed over the ground [m/s]."""
     altitude: Array
-    """[m]."""
+    """As recorded [m], taken for pressure altitude."""
     start: Second = 0.0
     """When it begins, since 1970 UTC [s]."""
     taken: str = ""
@@ -122,6 +129,9 @@ class RecordedTrack:
         """Where it is at time t [s]; before its start and after its end it flies straight on.
 
         Cubic Hermite between the points: position and velocity are continuous.
+
+        Returns:
+            east, north [m], track clockwise from north [rad], ground speed [m/s], altitude [m].
         """
         knots, step = self._knots, float(self.t[1])
         inside = min(max(t, 0.0), self.duration)

@@ -19,6 +19,10 @@ def load_grib(path: Path | str, lat: float, lon: float) -> WindProfile:
     Each level stands at its pressure altitude, as altimeters show it. Read are the components u and
     v on levels `isobaricInhPa`, of one time.
 
+    Examples:
+        >>> winds = rg.load_grib("gfs.grib2", lat=48.7, lon=2.4)  # doctest: +SKIP
+        >>> air = rg.Air(profile=winds)  # doctest: +SKIP
+
     Args:
         path: the file.
         lat: latitude [°].

@@ -43,6 +43,11 @@ class WindProfile:
     """Winds at some altitudes, linear in between, constant below the lowest and above the highest.
 
     East and north are interpolated each, so a wind that veers by 180° passes through calm.
+
+    Examples:
+        >>> low, high = (3_000.0, rg.Wind(east=10.0)), (9_000.0, rg.Wind(east=30.0))
+        >>> rg.WindProfile(levels=(low, high)).at(6_000.0)
+        Wind(east=20.0)
     """
 
     levels: tuple[WindLevel, ...]
@@ -100,6 +105,14 @@ def load_profile(path: Path | str) -> WindProfile:
     `speed_mps` or `speed_kt`, or `u_mps` and `v_mps` (also `east_mps`, `north_mps`, `u`, `v`),
     toward the east and the north. Commas or semicolons separate; with semicolons a comma may be the
     decimal sign. Capitals make no difference, and other columns are not read.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> _ = Path("winds.csv").write_text('''altitude_m,from_deg,speed_mps
+        ... 3000,270,10
+        ... 9449,240,30''')
+        >>> round(rg.load_profile("winds.csv").at(9_449.0).speed)  # [m/s]
+        30
 
     Args:
         path: the file.

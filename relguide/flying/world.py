@@ -44,7 +44,12 @@ RANGES = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Guided:
-    """Flies what its guidance asks for."""
+    """Flies what its guidance asks for.
+
+    Examples:
+        >>> rg.Guided(by_hand=rg.PilotModel()).by_hand.delay  # [s]
+        0.3
+    """
 
     by_hand: PilotModel | None = None
     """The pilot that flies it by hand along the flight director's bar; `None`: the autopilot does,
@@ -59,7 +64,12 @@ class Guided:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Declared:
-    """Flies an intent, then straight on."""
+    """Flies an intent, then straight on.
+
+    Examples:
+        >>> turns = rg.TurnTo(heading=2.4, turn=rg.RIGHT, bank=0.4)
+        >>> honest, breaks_its_word = rg.Declared(intent=(turns,)), rg.Declared(declares=(turns,))
+    """
 
     intent: tuple[IntentPiece, ...] = ()
     declares: tuple[IntentPiece, ...] | None = None
@@ -76,7 +86,14 @@ class Declared:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Recorded:
-    """Flies as it was recorded."""
+    """Flies as it was recorded.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> _ = Path("one.scn").write_text("00:00:00>CRE KL204 A320 52.0,4.0 90 FL310 280")
+        >>> rg.Recorded(track=rg.load_track("one.scn")).track.aircraft_type
+        'A320'
+    """
 
     track: RecordedTrack
     kind: Literal["recorded"] = "recorded"
@@ -91,7 +108,15 @@ Pilot = Guided | Declared | Recorded
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Aircraft:
-    """One aircraft as it begins."""
+    """One aircraft as it begins.
+
+    Examples:
+        >>> own = rg.Aircraft(
+        ...     ident="OWN", airframe=rg.airframe("A306"), aircraft_type="A306", pilot=rg.Guided(),
+        ...     x=-40e3, y=20e3, heading=1.5, tas=230.0, altitude=9_449.0, max_bank=0.4)
+        >>> round(own.autopilot_bank, 2)  # [rad]
+        0.49
+    """
 
     ident: str
     airframe: Airframe
@@ -107,7 +132,7 @@ class Aircraft:
     tas: MetrePerSecond
     """True airspeed [m/s]."""
     altitude: Metre
-    """[m]."""
+    """Pressure altitude [m]."""
     max_bank: Radian
     """What its plans turn with [rad]."""
     pilot: Pilot
@@ -150,7 +175,13 @@ class Aircraft:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Link:
-    """Who is to join whom, and how."""
+    """Who is to join whom, and how.
+
+    Examples:
+        >>> link = rg.Link(pursuer="OWN", leader="A", slot_distance=10e3, min_separation=9_260.0)
+        >>> link.intent_known
+        True
+    """
 
     pursuer: str
     """Ident of a guided aircraft."""
@@ -185,7 +216,14 @@ class Link:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class World:
-    """All that flies."""
+    """All that flies.
+
+    Examples:
+        >>> leader = rg.Aircraft(
+        ...     ident="A", airframe=rg.airframe("A306"), aircraft_type="A306", pilot=rg.Declared(),
+        ...     x=0.0, y=0.0, heading=1.5, tas=200.0, altitude=9_449.0, max_bank=0.4)
+        >>> alone = rg.World(aircraft=(leader,), links=(), air=rg.Air(wind=rg.Wind(east=20.0)))
+    """
 
     aircraft: tuple[Aircraft, ...]
     links: tuple[Link, ...]

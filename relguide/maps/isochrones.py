@@ -79,7 +79,12 @@ word that need be solved there, −1 for all of them."""
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Grid:
-    """Where the pursuer is put: the nodes of a rectangle, its edges east and north."""
+    """Where the pursuer is put: the nodes of a rectangle, its edges east and north.
+
+    Examples:
+        >>> rg.Grid(x=0.0, y=0.0, width=80e3, height=60e3, columns=5, rows=4).axes[0]
+        array([-40000., -20000.,      0.,  20000.,  40000.])
+    """
 
     x: Metre
     """Its middle, east [m]."""

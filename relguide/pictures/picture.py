@@ -23,7 +23,13 @@ CALL = "(text, options) => relguide.pictureOf(text, JSON.parse(options))"
 
 
 class Picture(str):
-    """A drawing as SVG text, which notebooks show."""
+    """A drawing as SVG text, which notebooks show.
+
+    Examples:
+        >>> flown = rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0)
+        >>> rg.picture(flown, 60.0).png(zoom=1)[1:4]
+        b'PNG'
+    """
 
     __slots__ = ()
 
@@ -62,6 +68,11 @@ def picture(
 
     Of the documents those up to `t` are taken, so a flight that is still to be flown is flown no
     further; of their samples one a second, as `record` writes them.
+
+    Examples:
+        >>> flown = rg.fly(rg.scenario("fig_6b"), rg.plan, sample_period=1.0)
+        >>> rg.picture(flown, 60.0, mode="ROSE", range_nm=40)[:4]
+        '<svg'
 
     Args:
         flight: its documents, or the name of a recording.

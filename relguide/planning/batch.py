@@ -71,7 +71,10 @@ RANGES = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Situations:
-    """Situations as columns, each of shape (n,) or one number for all; units as in `Situation`.
+    """Situations as columns, each of shape (n,) or one number for all, as in `Situation`.
+
+    Places are east (x) and north (y) [m], headings clockwise from north [rad], airspeeds true
+    [m/s], the bank [rad], D and d_min [m], the wind toward the east and the north [m/s].
 
     Examples:
         >>> asked = rg.Situations(
@@ -144,9 +147,13 @@ class TimeRow(NamedTuple):
     """The answer to one of `Situations`."""
 
     time_to_converge: Second
+    """T [s]; infinite without a plan."""
     lower_bound: Second
+    """No plan that keeps d_min is faster [s]; infinite if the slot is out of reach."""
     verdict: str
+    """`planned`, or the reason why not."""
     word: str
+    """As in `Times.word`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -242,6 +249,13 @@ def plan_arrays(
 
         with progress_bar("planning", total=n) as count:
             times = plan_arrays(situations, progress=count)
+
+    Examples:
+        >>> asked = rg.Situations(
+        ...     pursuer_x=-40e3, pursuer_y=[20e3, 40e3], pursuer_heading=0.0, pursuer_tas=240.0,
+        ...     max_bank=0.4, leader_tas=200.0, slot_distance=10e3, min_separation=9_260.0)
+        >>> rg.plan_arrays(asked).word.tolist()
+        ['RLR', 'LRL']
 
     Args:
         situations: as columns. All are checked before the first is planned.

@@ -21,7 +21,12 @@ LEAST_AREA = 1.0
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Disc:
-    """A round cell, at t = 0."""
+    """A round cell, at t = 0.
+
+    Examples:
+        >>> rg.Disc(x=60e3, y=20e3, radius=15e3)
+        Disc(x=60000.0, y=20000.0, radius=15000.0)
+    """
 
     x: Metre
     """Its middle, east [m]."""
@@ -41,7 +46,13 @@ class Disc:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Polygon:
-    """A convex cell, at t = 0."""
+    """A convex cell, at t = 0.
+
+    Examples:
+        >>> front = rg.Polygon(corners=((0.0, 0.0), (60e3, 10e3), (50e3, 25e3)))
+        >>> rg.Cell(ident="FRONT", shape=front, east=8.0).after(600.0).shape.corners[0]  # [m]
+        (4800.0, 0.0)
+    """
 
     corners: tuple[tuple[Metre, Metre], ...]
     """East and north of each corner, either way round [m]. Kept counter-clockwise."""

@@ -53,7 +53,12 @@ def expect_bank(name: str, value: object) -> Radian:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class FlyStraight:
-    """A piece of intent: keep the heading for a while."""
+    """A piece of intent: keep the heading for a while.
+
+    Examples:
+        >>> turns = rg.TurnTo(heading=2.4, turn=rg.RIGHT, bank=0.4)
+        >>> in_a_minute = (rg.FlyStraight(duration=60.0), turns)
+    """
 
     duration: Second
     """How long [s], ≥ 0."""
@@ -145,7 +150,14 @@ class ChangeLevel:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class LevelChange:
-    """A climb or a descent to a level, begun at a time: what a pursuer plans for itself."""
+    """A climb or a descent to a level, begun at a time: what a pursuer plans for itself.
+
+    Examples:
+        >>> climb = rg.LevelChange(at=30.0, to_altitude=10_668.0, rate=7.5)
+        >>> own = rg.Pursuer(
+        ...     x=0.0, y=0.0, heading=1.5, tas=230.0, max_bank=0.4,
+        ...     altitude=9_449.0, levels=(climb,))
+    """
 
     at: Second
     """When it begins [s], ≥ 0."""

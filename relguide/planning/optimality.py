@@ -93,7 +93,7 @@ class OptimalityReport:
     switching_ok: bool
     """Each arc turns at nominal bank to the side eq. (16) asks; λ_ψ vanishes where it should."""
     neglected: Second
-    """Time in pieces too short to matter that were left out; 0 if the conditions hold on all."""
+    """Time in pieces too short to matter, left out [s]; 0 if the conditions hold on all."""
     contacts: tuple[ContactPoint, ...]
     boundary_arcs: tuple[SlideReport, ...]
     history: AdjointHistory

@@ -24,7 +24,15 @@ LONGEST_NAME = 40
 
 
 class Reason(StrEnum):
-    """Why there is no plan."""
+    """Why there is no plan.
+
+    Examples:
+        >>> from dataclasses import replace
+        >>> asked = rg.scenario("fig_6b").situation
+        >>> near = replace(asked, pursuer=replace(asked.pursuer, x=-5e3, y=0.0))
+        >>> rg.plan(near).reason is rg.Reason.SEPARATION_ALREADY_LOST
+        True
+    """
 
     SLOT_UNREACHABLE = "slot_unreachable"
     SEPARATION_ALREADY_LOST = "separation_already_lost"
@@ -46,7 +54,15 @@ class Optimality:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Plan:
-    """A certified trajectory to the slot."""
+    """A certified trajectory to the slot.
+
+    Examples:
+        >>> best = rg.plan(rg.scenario("fig_6b").situation)
+        >>> round(best.time_to_converge), best.optimality.proof  # [s]
+        (904, 'relaxation')
+        >>> best.over_ground([0.0, 60.0]).x  # [m]
+        array([-40000., -25600.])
+    """
 
     situation: Situation
     """What was asked about; the pursuer with the changes of level that were planned."""
@@ -182,7 +198,17 @@ class Remedy:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NoPlan:
-    """Why there is no plan, and what would help."""
+    """Why there is no plan, and what would help.
+
+    Examples:
+        >>> from dataclasses import replace
+        >>> asked = rg.scenario("fig_6b").situation
+        >>> near = replace(asked, pursuer=replace(asked.pursuer, x=-5e3, y=0.0))
+        >>> answer = rg.plan(near)
+        >>> if isinstance(answer, rg.NoPlan):
+        ...     print(answer.message)
+        The aircraft are 5,000 m ... apart, closer than the minimum of 9,260 m...
+    """
 
     reason: Reason
     message: str

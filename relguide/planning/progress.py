@@ -50,9 +50,15 @@ def show_progress(
 def progress_bar(title: str, *, total: float) -> Iterator[Callable[[float], None]]:
     """A bar once it has taken longer than two seconds; yields what to call with each advance.
 
+    Examples:
+        >>> with rg.progress_bar("planning", total=2) as count:
+        ...     for name in ("fig_6a", "fig_6b"):
+        ...         answer = rg.plan(rg.scenario(name).situation)
+        ...         count(1)
+
     Args:
         title: what the bar is called.
-        total: what the advances sum up to.
+        total: what the advances sum up to, in any unit.
 
     Raises:
         ValueError: if `total` or an advance is no number.

@@ -69,6 +69,14 @@ def prove(
     Amid others the bound is that of the leader alone: leaving others out only relaxes what is
     asked. A path found on the way takes the plan's place if it keeps clear of all.
 
+    Examples:
+        >>> own = rg.Pursuer(x=30e3, y=12e3, heading=4.5, tas=240.0, max_bank=0.4)
+        >>> leader = rg.Leader(x=0.0, y=0.0, heading=1.5, tas=200.0)
+        >>> asked = rg.Situation(pursuer=own, leader=leader, slot_distance=10e3, min_separation=9e3)
+        >>> found = rg.plan(asked)  # touches d_min
+        >>> found.optimality.proof, rg.prove(found, seconds=10.0).optimality.proof
+        ('bound', 'certified')
+
     Args:
         plan: made by any planner.
         seconds: how long to search at most, 0 to `MAX_SECONDS` [s], without loading the kernels.

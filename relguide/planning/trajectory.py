@@ -26,7 +26,14 @@ RIGHT: Turn = -1
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pose:
-    """Where an aircraft is and where its nose points."""
+    """Where an aircraft is and where its nose points.
+
+    Examples:
+        >>> ahead = rg.Straight(length=2_000.0)
+        >>> flown = rg.Trajectory(x=0.0, y=0.0, heading=0.0, tas=200.0, segments=(ahead,))
+        >>> flown.pose_at(5.0)
+        Pose(x=0.0, y=1000.0, heading=0.0)
+    """
 
     x: Metre
     """East [m]."""
@@ -69,7 +76,12 @@ class Arc:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Straight:
-    """A piece at constant heading."""
+    """A piece at constant heading.
+
+    Examples:
+        >>> rg.Straight(length=2_000.0).length / 200.0  # at 200 m/s [s]
+        10.0
+    """
 
     length: Metre
     """l_i [m], ≥ 0."""
@@ -82,7 +94,12 @@ class Straight:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundaryArc:
-    """A piece that slides along d = d_min with less than full bank, as short arcs."""
+    """A piece that slides along d = d_min with less than full bank, as short arcs.
+
+    Examples:
+        >>> rg.BoundaryArc(side=rg.LEFT, bends=((500.0, -1e-4), (400.0, -8e-5))).length  # [m]
+        900.0
+    """
 
     side: Turn
     """`LEFT` boundary arcs counter-clockwise round the leader, turning left; `RIGHT` the other way.

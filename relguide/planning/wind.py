@@ -11,7 +11,12 @@ from relguide.units import MetrePerSecond
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Wind:
-    """Uniform wind: the velocity of the air mass over the ground."""
+    """Uniform wind: the velocity of the air mass over the ground.
+
+    Examples:
+        >>> rg.Wind(east=20.0, north=-15.0).speed  # [m/s], from north-west
+        25.0
+    """
 
     east: MetrePerSecond = 0.0
     """Toward the east [m/s]."""

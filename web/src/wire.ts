@@ -307,6 +307,7 @@ export interface AirspaceCard {
  */
 export interface Alert {
   kind: "alert";
+  /** Flight time [s]. */
   t_s: number;
   /** The aircraft whose crew is alerted. */
   ident: string;
@@ -316,9 +317,9 @@ export interface Alert {
   level: AlertLevel;
   subject: AlertSubject;
   message: string;
-  /** Least separation from the other ahead, flying on as now. */
+  /** Least separation from the other ahead, flying on as now [m]. */
   predicted_least_m: number;
-  /** Flight time of it. */
+  /** Flight time of it [s]. */
   predicted_at_s: number;
   /** Whether the alert ends: nothing stands on this subject any more. */
   cleared: boolean;
@@ -440,6 +441,7 @@ export interface ArrivalCard {
 /** The crew has changed what its guidance is to do; or what it ordered could not be done. */
 export interface AssignmentChanged {
   kind: "assignment_changed";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
@@ -625,6 +627,7 @@ export interface ClearanceList {
  */
 export interface ClearanceNews {
   kind: "clearance_news";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
@@ -673,6 +676,7 @@ export interface ClosestOther {
  */
 export interface CommandGiven {
   kind: "command_given";
+  /** Flight time [s]. */
   t_s: number;
   command:
     | LeaderHeading
@@ -741,6 +745,7 @@ export interface ControlAnswer {
  */
 export interface ControlChanged {
   kind: "control_changed";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
@@ -840,6 +845,7 @@ export interface EarlyAlternativeCard {
 /** The crew has engaged guidance further, or less far; or what it ordered could not be done. */
 export interface EngagementChanged {
   kind: "engagement_changed";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
@@ -890,6 +896,7 @@ export interface Expired {
  */
 export interface FanChanged {
   kind: "fan_changed";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
@@ -898,9 +905,9 @@ export interface FanChanged {
    * once the intent is known, or the pursuer has joined: the fan is closed.
    */
   joins: FanJoin[];
-  /** By knowing the turn for which that saves the most; 0 where nothing is saved. */
+  /** By knowing the turn for which that saves the most [s]; 0 where nothing is saved. */
   most_saved_s: number;
-  /** On average of all these turns. */
+  /** On average of all these turns [s]. */
   mean_saved_s: number;
 }
 
@@ -944,6 +951,7 @@ export interface FlightClearanceRequest {
 /** How the flight went: the last document. */
 export interface FlightEnded {
   kind: "flight_ended";
+  /** Flight time [s]. */
   t_s: number;
   reason: "joined" | "time_over" | "recording_over" | "plane_left";
   /** The same in a sentence. */
@@ -961,6 +969,7 @@ export interface FlightList {
 /** All that is known before the flight: the first document. */
 export interface FlightStarted {
   kind: "flight_started";
+  /** Flight time [s]. */
   t_s: number;
   scenario: string;
   title: string;
@@ -1076,22 +1085,26 @@ export interface FlownSituationBody {
  */
 export interface ForecastChanged {
   kind: "forecast_changed";
+  /** Flight time [s]. */
   t_s: number;
   ident: string;
-  /** Flight times, ascending. */
+  /** Flight times, ascending [s]. */
   times_s: number[];
+  /** East of each point [m]. */
   x_m: number[];
+  /** North of each point [m]. */
   y_m: number[];
+  /** Clockwise from north at each point: radians in Python, degrees in JSON. */
   heading_deg: number[];
-  /** From its leader on the way, the leader flying as expected. */
+  /** From its leader on the way [m], the leader flying as expected. */
   least_separation_m: number;
   /** Where the aircraft is when the separation is least. */
   pursuer_at_closest: PathPoint;
   /** Where its leader is then. */
   leader_at_closest: PathPoint;
   /**
-   * How far to either side of the line it may come at each point, by what is not certain of the
-   * leader's track and of the wind (2 σ of what is believed now); none where all is exact.
+   * How far to either side of the line it may come at each point [m], by what is not certain of
+   * the leader's track and of the wind (2 σ of what is believed now); none where all is exact.
    */
   aside_m?: number[];
   /** WGS84; there if the situation came with latitudes. */
@@ -1266,6 +1279,7 @@ export interface IntentOrder {
 /** The leader does something new, or its intent was received or withdrawn. */
 export interface LeaderChanged {
   kind: "leader_changed";
+  /** Flight time [s]. */
   t_s: number;
   /** The leader's. */
   ident: string;
@@ -1396,6 +1410,7 @@ export interface LeaderReportCommand {
  */
 export interface LeaderRoute {
   kind: "leader_route";
+  /** Flight time [s]. */
   t_s: number;
   /** The leader's. */
   ident: string;
@@ -1408,6 +1423,7 @@ export interface LeaderRoute {
 /** An aircraft is to fly at a true airspeed [m/s]. A recorded one leaves its recording. */
 export interface LeaderSpeed {
   kind: "leader_speed";
+  /** True airspeed [m/s]. */
   tas_mps: number;
   /** Of the aircraft that is to do so; empty for the first link's leader. */
   ident: string;
@@ -1609,6 +1625,7 @@ export interface MissingAlternativeCard {
 /** Guidance went from one mode to another. */
 export interface ModeChanged {
   kind: "mode_changed";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
@@ -1841,6 +1858,7 @@ export interface PlanCard {
 /** A new plan is flown. */
 export interface PlanChanged {
   kind: "plan_changed";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
@@ -1853,17 +1871,18 @@ export interface PlanChanged {
   pursuer_at_closest: PathPoint;
   /** Whether it is news for the crew; if not, its path is drawn and nothing is said. */
   announced: boolean;
-  /** How long until joined, braking included: as forecast by flying the closed loop ahead. */
+  /** How long until joined, braking included [s]: as forecast by flying the closed loop ahead. */
   promised_s: number;
-  /** Largest distance of that forecast from the plan's ideal path. */
+  /** Largest distance of that forecast from the plan's ideal path [m]. */
   tube_m: number;
-  /** Least separation of that forecast, which is what must keep d_min. */
+  /** Least separation of that forecast [m], which is what must keep d_min. */
   flown_least_m: number;
 }
 
 /** A path that could be flown from now on, if the crew accepts it. It is not flown. */
 export interface PlanProposed {
   kind: "plan_proposed";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
@@ -1873,9 +1892,9 @@ export interface PlanProposed {
   leader_at_closest: PathPoint;
   /** Where the pursuer is then. */
   pursuer_at_closest: PathPoint;
-  /** How long until joined, braking included: as forecast by flying the closed loop ahead. */
+  /** How long until joined, braking included [s]: as forecast by flying the closed loop ahead. */
   promised_s: number;
-  /** Least separation of that forecast, which is what must keep d_min. */
+  /** Least separation of that forecast [m], which is what must keep d_min. */
   flown_least_m: number;
   /** Other paths to the slot that could be flown, fastest first: at most three. */
   others: OtherPathCard[];
@@ -1890,6 +1909,7 @@ export interface PlanProposed {
  */
 export interface PlanRefused {
   kind: "plan_refused";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
@@ -1902,6 +1922,7 @@ export interface PlanRefused {
 /** Guidance asked for a plan and there is none. */
 export interface PlanUnavailable {
   kind: "plan_unavailable";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
@@ -1970,12 +1991,13 @@ export interface ProbeChanged {
 /** The pursuer will join at another time than was last said, on the path that it flies. */
 export interface PromiseChanged {
   kind: "promise_changed";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
-  /** How long until joined, braking included: as forecast by flying the closed loop ahead. */
+  /** How long until joined, braking included [s]: as forecast by flying the closed loop ahead. */
   promised_s: number;
-  /** The same as was last said, counted from now; negative if that instant has passed. */
+  /** The same as was last said, counted from now [s]; negative if that instant has passed. */
   was_s?: number;
   message: string;
 }
@@ -2116,6 +2138,7 @@ export interface Reported {
 /** The flight at one instant. */
 export interface Sample {
   kind: "sample";
+  /** Flight time [s]. */
   t_s: number;
   /** In the order of `FlightStarted.aircraft`. */
   aircraft: AircraftSample[];
@@ -2168,20 +2191,21 @@ export interface Separation {
 /** The separation fell below d_min: once for each time it does. */
 export interface SeparationLost {
   kind: "separation_lost";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;
   /** The aircraft that it came too close to. */
   other: string;
-  /** At this instant. */
+  /** At this instant [m]. */
   separation_m: number;
-  /** Where the pursuer is, east. */
+  /** Where the pursuer is, east [m]. */
   x_m: number;
-  /** … and north. */
+  /** … and north [m]. */
   y_m: number;
   /** Why, in a sentence. */
   cause: string;
-  /** When the first alert or `Unable` that came before it was given; empty if there was none. */
+  /** Flight time [s] of the first alert or `Unable` that came before it; empty without one. */
   announced_s: number[];
   /** WGS84; there if the situation came with latitudes. */
   lat_deg?: number;
@@ -2560,6 +2584,7 @@ export interface TurnSegment {
 /** Guidance cannot do what it is to do, and the crew is informed. Holds until the next plan. */
 export interface Unable {
   kind: "unable";
+  /** Flight time [s]. */
   t_s: number;
   /** The pursuer's. */
   ident: string;

@@ -34,8 +34,13 @@ FLAGS = ("always_ask",)
 class Settings:
     """How guidance plans, tracks, watches and speaks.
 
+    Every field is in the unit that its type names: `Metre` [m], `Second` [s], `MetrePerSecond`
+    [m/s], `Radian` [rad], `RadianPerSecond` [rad/s]; shares and the damping are numbers [1].
+
     Examples:
-        >>> fly_gently = rg.Settings(bank_in_hand=0.09)
+        >>> gentle = rg.Settings(bank_in_hand=0.09, bank_in_hand_share=0.25)
+        >>> round(gentle.planned_bank(0.44), 2)  # where the autopilot may use 0.44 rad [rad]
+        0.35
     """
 
     bank_in_hand: Radian = 2.5 * DEG
@@ -238,7 +243,14 @@ DEFAULT = Settings()
 
 
 def load_settings(path: Path | str) -> Settings:
-    """Settings from the table `[guidance]` of a TOML file.
+    """Settings from the table `[guidance]` of a TOML file, whose keys end in their units.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> _ = Path("calm.toml").write_text('''[guidance]
+        ... caution_s = 45.0''')
+        >>> rg.load_settings("calm.toml").caution  # [s]
+        45.0
 
     Raises:
         ValueError: naming the file and the key, with what would be right.

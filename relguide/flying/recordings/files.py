@@ -33,6 +33,12 @@ def load_track(path: Path | str, callsign: str = "") -> RecordedTrack:
     Tables have columns as OpenSky (history and state vectors), traffic or Flightradar24 name them;
     others are not read. Files of JSON and scenarios of BlueSky are read as `FORMS` says.
 
+    Examples:
+        >>> from pathlib import Path
+        >>> _ = Path("one.scn").write_text("00:00:00>CRE KL204 A320 52.0,4.0 90 FL310 280")
+        >>> rg.load_track("one.scn").ident
+        'KL204'
+
     Args:
         path: the file.
         callsign: which flight of it, or the aircraft's 24-bit address; may be left out if there is
