@@ -184,6 +184,7 @@ def test_networks_are_compiled_once_a_request_asks_for_them(compiled: Compiling)
         refused = client.post(asked, json=EXAMPLE)
         assert refused.status_code == 503
         assert refused.json()["detail"].startswith("Compiled at the first request: ")
+        _until(lambda: len(compiled.asked) == 2)  # before the comparison asks for the tree, too
         compared = client.post("/api/v1/plans/compare", json=EXAMPLE).json()["planners"]
         assert [each["status"] for each in compared] == [
             "planned", "preparing", "preparing", "refused",
