@@ -1,7 +1,7 @@
 """A clearance from the request to its end: each step gives a new record, or says why it may not be.
 
 Nothing here reads a clock: `now` is the time of the clearance's sky [s], `at` the wall clock, UTC,
-ISO 8601. Whoever may not take a step is told so by `ValueError`, in a sentence.
+ISO 8601. A step that its actor may not take raises `ValueError`, with a sentence.
 """
 
 from dataclasses import dataclass, replace

@@ -64,7 +64,7 @@ def claims_page(claims: Sequence[Claim], obtained: Mapping[str, float]) -> str:
 
 
 def number(value: float, like: Claim) -> str:
-    """A number with as many decimals as its claim is told with."""
+    """A number with as many decimals as its claim has."""
     told = (like.expected, like.tolerance or 0.0, like.at_most or 0.0, like.at_least or 0.0)
     decimals = max(len(f"{one:.10g}".partition(".")[2]) for one in told)
     if value and not round(value, decimals):

@@ -14,10 +14,10 @@ import numpy as np
 
 from relguide.figures.style import DOTS, house_style
 from relguide.learn.tree.tree import RegularTree, TreeParameters, nodes_at, tree_area
-from relguide.maps.area import Area, Floats, middles
+from relguide.maps.area import Area, Encounter, Floats, middles
 from relguide.planning.extras import need
 from relguide.planning.phrases import whole_degrees
-from relguide.units import DEG
+from relguide.units import DEG, NM
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,6 +27,14 @@ KM, MINUTE = 1000.0, 60.0
 FORMATS = (".svg", ".png", ".pdf")
 """What a figure may be written as."""
 INK, FAINT, LEADER = "#1c2733", "#8a95a3", "#c2185b"
+TWO_A300 = Encounter(
+    pursuer_tas=240.0,
+    max_bank=25.0 * DEG,
+    leader_tas=200.0,
+    slot_distance=12_000.0,
+    min_separation=5.0 * NM,
+)
+"""The encounter of the paper's Figs. 3 and 4, as `relguide area` has it."""
 PANEL = 3.1
 """Width and height of a panel [inch]."""
 MOST_LOSS = 60.0

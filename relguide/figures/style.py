@@ -1,4 +1,4 @@
-"""How all figures look: fonts, colours, dashes and marks that are told apart in grey as well."""
+"""How all figures look: fonts, colours, dashes and marks that differ in grey as well."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -54,7 +54,7 @@ _TROPOPAUSE_PRESSURE: float = (
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Air:
-    """The air as it is, or as somebody believes it to be.
+    """The air as it is, or as an aircraft believes it to be.
 
     Examples:
         >>> rg.Air(wind=rg.wind_from(1.5, 20.0), gusts=1.5).gusts

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from relguide.figures.area_figure import TWO_A300
 from relguide.figures.drawn import Drawn, NamedFigure, Step
 from relguide.figures.flights import Floats
 from relguide.figures.style import (
@@ -18,21 +19,14 @@ from relguide.figures.style import (
 )
 from relguide.learn.tree.reverse_dp import grow_order, plant, tree_from
 from relguide.learn.tree.tree import RegularTree, TreeParameters, pairs_of
-from relguide.maps.area import Encounter
-from relguide.units import DEG, NM
+from relguide.units import DEG
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 KM = 1000.0
 PARAMETERS = TreeParameters(
-    encounter=Encounter(
-        pursuer_tas=240.0,
-        max_bank=25.0 * DEG,
-        leader_tas=200.0,
-        slot_distance=12_000.0,
-        min_separation=5.0 * NM,
-    ),
+    encounter=TWO_A300,
     order=4,
     delta_theta=60.0 * DEG,
     delta_l=20_000.0,

@@ -2,21 +2,15 @@
 
 import numpy as np
 
-from relguide.figures.area_figure import areas_figure, column_of
+from relguide.figures.area_figure import TWO_A300, areas_figure, column_of
 from relguide.figures.drawn import Drawn, NamedFigure, Step
 from relguide.learn.tree.reverse_dp import grow_order, plant, tree_from
 from relguide.learn.tree.tree import TreeParameters
-from relguide.maps.area import Encounter, Floats, exact_times
-from relguide.units import DEG, NM
+from relguide.maps.area import Floats, exact_times
+from relguide.units import DEG
 
 PARAMETERS = TreeParameters(
-    encounter=Encounter(
-        pursuer_tas=240.0,
-        max_bank=25.0 * DEG,
-        leader_tas=200.0,
-        slot_distance=12_000.0,
-        min_separation=5.0 * NM,
-    ),
+    encounter=TWO_A300,
     order=4,
     delta_theta=10.0 * DEG,
     delta_l=1000.0,
