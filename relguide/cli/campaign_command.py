@@ -35,7 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "words",
         nargs="+",
         metavar="FILE.toml | keys | report DIR | show DIR N | replay DIR N",
-        help="a campaign to fly, what its [vary] and [sweep] may name, or what to do with its folder",
+        help="a campaign to fly, what one may vary or sweep, or what to do with its folder",
     )
     parser.add_argument("--out", metavar="DIR", type=Path, help="keep the flights there")
     parser.add_argument(

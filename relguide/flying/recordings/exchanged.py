@@ -1,4 +1,4 @@
-"""Latitude and longitude exchanged: places then lie where their own speeds and tracks do not lead."""
+"""Latitude and longitude exchanged: places lie where their own speeds and tracks do not lead."""
 
 import numpy as np
 
@@ -28,7 +28,8 @@ def refuse_exchanged(numbers: Array, source: str) -> None:
     Raises:
         ValueError: if latitude and longitude are exchanged, saying how it shows.
     """
-    t, lat, lon, _, speed, track, _ = numbers[np.all(np.isfinite(numbers[:, (1, 2, 4, 5)]), axis=1)].T
+    told = numbers[np.all(np.isfinite(numbers[:, (1, 2, 4, 5)]), axis=1)]
+    t, lat, lon, _, speed, track, _ = told.T
     _, chosen = np.unique(t // APART, return_index=True)
     t, lat, lon, speed, track = (column[chosen] for column in (t, lat, lon, speed, track))
     if not t.size or np.max(np.abs(lon)) > 90.0:
@@ -36,9 +37,9 @@ def refuse_exchanged(numbers: Array, source: str) -> None:
     written, exchanged = (_miss(t, *places, speed, track) for places in ((lat, lon), (lon, lat)))
     if exchanged < MISSES < written and 2.0 * exchanged < written:
         raise ValueError(
-            f"{source}: latitude and longitude are exchanged. As written, its places miss where its "
-            f"own speeds and tracks lead by {written:.0%} of the way; exchanged, by {exchanged:.0%}. "
-            "Exchange the names of the two columns."
+            f"{source}: latitude and longitude are exchanged. As written, its places miss where "
+            f"its own speeds and tracks lead by {written:.0%} of the way; exchanged, by "
+            f"{exchanged:.0%}. Exchange the names of the two columns."
         )
 
 
