@@ -11,14 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from relguide.flying.air import Air, pressure
-from relguide.flying.airframe import (
-    KEYS,
-    QUANTITIES,
-    Airframe,
-    airframe,
-    known_airframes,
-    load_airframe,
-)
+from relguide.flying.airframe import QUANTITIES, Airframe
+from relguide.flying.airframe_files import KEYS, airframe, known_airframes, load_airframe
 from relguide.flying.dispersion import DISPERSED
 from relguide.units import DEG, FT, G0, KT
 
