@@ -8,7 +8,8 @@ from fastapi import APIRouter, Depends, Query, Request
 from pydantic import AfterValidator, AwareDatetime, BeforeValidator
 from starlette.responses import Response
 
-from relguide.contract.messages import FlightStatus, from_wire
+from relguide.contract.document_models import from_wire
+from relguide.contract.messages import FlightStatus
 from relguide.contract.recorder import VERSION
 from relguide.contract.refusal import ContractError, parse
 from relguide_server.flights.live_fleet import FleetOf
