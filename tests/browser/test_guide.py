@@ -1,4 +1,4 @@
-"""The guide in a browser: its search works, under a strict policy, and asks no other machine."""
+"""The guide in a browser: found from the cockpit, its search works, under a strict policy, and asks no other machine."""
 
 import re
 from pathlib import Path
@@ -10,6 +10,28 @@ from relguide_server.http import guide
 from tests.browser.service import Watch
 from tests.pages import build_site
 from tests.server.serving import ideal_app, serve
+
+
+def test_cockpit_guide_and_controller_lead_to_each_other(
+    page: Page, watched: Watch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By keyboard; and where no guide is built there is no link to it."""
+    monkeypatch.setattr(guide, "GUIDE_FOLDERS", (tmp_path,))
+    with serve(ideal_app()) as address:
+        page.goto(f"http://{address}/?plan")
+        page.get_by_role("button", name="Help").click()
+        expect(page.get_by_role("link", name="the service's interface")).to_be_visible()
+        expect(page.get_by_role("link", name="The guide")).to_have_count(0)
+        page.keyboard.press("Escape")
+        (tmp_path / "index.html").write_text("<!doctype html><title>guide</title>")
+        page.get_by_role("button", name="Help").click()
+        expect(page.get_by_role("link", name="The guide")).to_have_attribute("href", "guide/")
+        page.keyboard.press("Escape")
+        page.get_by_role("link", name="ATC: the controller's page").press("Enter")
+        expect(page).to_have_title("relguide ATC")
+        page.get_by_role("link", name="Cockpit").press("Enter")
+        expect(page).to_have_title("relguide cockpit")
+    assert watched.complaints == []
 
 
 def test_it_is_searched_without_another_machine(
