@@ -16,9 +16,9 @@ import numpy as np
 from pydantic_core import to_json
 
 from relguide.atc.documents import ClearanceCard, PairCard, TrackCard
+from relguide.contract.document_models import Placed
 from relguide.contract.geojson import DECIMALS, STRIDE, line_geometry
-from relguide.contract.messages import Placed
-from relguide.contract.picture_bodies import moment
+from relguide.contract.moments import moment
 from relguide.planning.frames import LocalPlane
 from relguide.units import Second
 

@@ -7,7 +7,7 @@ import type { HandFlying } from "./hands/hand-flying";
 import { createEditor, type Editor } from "./map/editor";
 import { createPlanners, type Planners } from "./planners";
 import { createHistory, type History } from "./store/history";
-import { createShown, type Shown } from "./store/picture";
+import { createShown, type Shown } from "./store/shown";
 import type { Flight } from "./store/types";
 import type { Direction, Engagement, FlightStatus, ScenarioInfo } from "./wire";
 

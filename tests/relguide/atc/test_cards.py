@@ -9,7 +9,7 @@ from relguide.atc.cards import card_of, of_card, track_card, track_of
 from relguide.atc.clearances import State
 from relguide.atc.documents import ClearanceCard
 from relguide.atc.life import note_validation
-from relguide.contract.messages import card_from_wire
+from relguide.contract.document_models import card_from_wire
 from relguide.contract.refusal import ContractError
 from relguide.contract.wire import dumps, to_wire
 from tests.relguide.atc.lives import STATES, in_state, manoeuvre, straight_track, validation

@@ -2,7 +2,7 @@
 
 import { batch, computed, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import { emptyFlight } from "../store/flight";
-import { createShown, type Shown } from "../store/picture";
+import { createShown, type Shown } from "../store/shown";
 import type { Flight } from "../store/types";
 import { NM } from "../units";
 import type { AreaAnswer } from "../wire";

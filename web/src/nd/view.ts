@@ -7,7 +7,8 @@
  */
 
 import { computed, type ReadonlySignal } from "@preact/signals";
-import type { Moved, Shown } from "../store/picture";
+import type { Moved } from "../store/motion";
+import type { Shown } from "../store/shown";
 import { DEG, NM, wrap180 } from "../units";
 
 export const SIZE = 768;

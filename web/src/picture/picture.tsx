@@ -7,7 +7,7 @@ import { signal } from "@preact/signals";
 import { renderToString } from "preact-render-to-string";
 import { fittingRange } from "../nd/range";
 import { createView, type DisplayMode, RANGES } from "../nd/view";
-import type { Shown } from "../store/picture";
+import type { Shown } from "../store/shown";
 import { formatClock } from "../units";
 import { Drawing } from "./drawing";
 import { inlined } from "./inlined";

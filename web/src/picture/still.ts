@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import { emptyFlight } from "../store/flight";
 import { createHistory, type History, momentAt } from "../store/history";
-import { createShown, type Shown } from "../store/picture";
+import { createShown, type Shown } from "../store/shown";
 import type { Document } from "../wire";
 
 /**

@@ -13,7 +13,7 @@ import {
 import { useEffect, useRef } from "preact/hooks";
 import { Icon, set } from "../parts";
 import type { Actions, Session } from "../session";
-import type { Shown } from "../store/picture";
+import type { Shown } from "../store/shown";
 import { SceneBar } from "./bar";
 import {
   type Camera,
