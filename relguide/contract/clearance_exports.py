@@ -23,8 +23,6 @@ from relguide.planning.frames import LocalPlane
 from relguide.units import Second
 
 ClearanceForm = Literal["geojson", "czml", "kml", "csv"]
-PLACELESS: tuple[ClearanceForm, ...] = ("csv",)
-"""Forms that need no place on the earth."""
 KML, GX = "http://www.opengis.net/kml/2.2", "http://www.google.com/kml/ext/2.2"
 SHIFTS = 20
 """Each leaves a share of what the last one was off by: a tenth or so, 600 km away at 60° N."""

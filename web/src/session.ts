@@ -15,7 +15,7 @@ import type { Direction, Engagement, FlightStatus, ScenarioInfo } from "./wire";
 export type NdMode = "ROSE" | "ARC" | "PLAN";
 export const ND_RANGES = [10, 20, 40, 80, 160, 320] as const;
 /** Range of the navigation display [NM]. */
-export type NdRange = (typeof ND_RANGES)[number];
+type NdRange = (typeof ND_RANGES)[number];
 /** Simulated seconds per wall-clock second, as offered. */
 export const RATES = [1, 2, 5, 10, 20, 60] as const;
 

@@ -15,21 +15,22 @@ import "./styles/timeline.css";
 import "./styles/help.css";
 import "./map/map.css";
 import { render } from "preact";
+import { keepChoices } from "../preferences";
 import { socketAddress } from "../stream";
 import { PROTOCOL } from "../wire";
 import { createActions } from "./actions";
 import { Announcer, followChanges } from "./announcer";
 import { isTaken, keyAct } from "./keys";
 import { Page } from "./page";
-import { keepChoices } from "./preferences";
 import { soundDeviations } from "./sounds";
 import { createStation } from "./station";
 
 const station = createStation();
+const { sound, letterKeys, all } = station;
 const address = socketAddress("api/v1/atc/stream", location.href);
 const actions = createActions(station, address, PROTOCOL);
 const said = followChanges(station.store);
-keepChoices(station);
+keepChoices("relguide-atc", { sound, letterKeys, all });
 soundDeviations(station);
 
 const place = document.querySelector("#atc");

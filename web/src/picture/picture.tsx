@@ -15,7 +15,7 @@ import { COLOURS, type PaletteName } from "./palettes";
 import { documentsOf, shownAt } from "./still";
 
 /** The range of the map [NM], or the smallest that has all in sight that belongs there. */
-export type RangeChoice = (typeof RANGES)[number] | "auto";
+type RangeChoice = (typeof RANGES)[number] | "auto";
 
 export interface PictureView {
   readonly mode: Exclude<DisplayMode, "PLAN">;

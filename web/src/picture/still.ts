@@ -26,7 +26,7 @@ export function shownAt(documents: readonly Document[], t: number): Shown {
 }
 
 /** The same of a flight whose documents are known already. */
-export function shownOf(history: History, t: number): Shown {
+function shownOf(history: History, t: number): Shown {
   const moment = signal(momentAt(history, t));
   return createShown({ ...emptyFlight(), moment, read: moment });
 }
