@@ -16,7 +16,7 @@ KINDS = {
     "not-json": Kind(400, "Not JSON", "The body is no JSON. `errors` says where it ends to be."),
     "not-http": Kind(400, "Not HTTP", "What came is no request of HTTP/1.1, or is too long."),
     "token-missing": Kind(
-        401, "Token missing", "This server asks for a token: `Authorization: Bearer …`."
+        401, "Token missing or unknown", "This server asks for a token: `Authorization: Bearer …`."
     ),
     "not-allowed": Kind(
         403, "Not allowed", "The token may less than this, or the flight is another's."

@@ -34,7 +34,7 @@ from relguide.learn.planners import make_planner
 from relguide.learn.words.area_words import area_words
 from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.maps.isochrones import Grid, isochrones, times_around
-from relguide.planning.deadline import LOADING, load_kernels
+from relguide.planning.deadline import LOADING, TO_LOOK_ROUND, load_kernels
 from relguide.planning.outcome import Planner, Reason
 from relguide.planning.plan import plan_at_once as exact_plan_at_once
 from relguide.planning.situation import Situation
@@ -129,6 +129,9 @@ def plan_body(
     deadline = max(min(end - monotonic(), most), least)
     answered = plan_situation(situation, anchor, planner, include, deadline, form)
     cut = answered.reason == Reason.DEADLINE.value or answered.seconds > CUT * deadline
+    # the soonest way out is left out where there is no time to look for it
+    if answered.reason == Reason.SEPARATION_ALREADY_LOST.value:
+        cut = cut or deadline <= TO_LOOK_ROUND
     return replace(answered, processor=thread_time() - began, cut=cut)
 
 
@@ -308,7 +311,8 @@ def _read(
     content: object, shape: type[SituationBody], *, under: str = ""
 ) -> tuple[Situation, Anchor]:
     if not isinstance(content, dict):
-        raise Refusal(422, f"{under} must be an object with fields: a situation.".strip())
+        what = under or "The body"
+        raise Refusal(422, f"{what} must be an object with fields: a situation.")
     try:
         return situation_from_body(parse(shape, content))
     except ContractError as error:

@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from relguide_server.planning.plan_service import PlanService
 from relguide_server.planning.plans import EXAMPLE, Answer
+from relguide_server.planning.tasks import plan_body
 
 from benchmarks.service.situations import HEAD_ON
 from relguide.contract.refusal import parse
@@ -60,6 +61,22 @@ def test_headers_that_say_nothing_of_plans_change_nothing(sent: dict[str, str]) 
 def test_what_is_wrong_is_refused_with_a_problem(sent: dict[str, Any], status: int) -> None:
     with TestClient(ideal_app()) as client:
         is_problem(client.post(PATH, **sent), status, PATH)
+
+
+def test_whom_a_lost_separation_leaves_no_plan_is_told_the_soonest_way_out() -> None:
+    lost = {**EXAMPLE, "pursuer": {**EXAMPLE["pursuer"], "x_m": -3_000, "y_m": 0}}
+    # by the first, what it needs has been compiled
+    plan_body(json.dumps(lost).encode(), "exact", (), time.monotonic() + 60.0, 60.0)
+    with TestClient(ideal_app()) as client:
+        answer = client.post(PATH, json=lost, params={"max_ms": 5_000}).json()
+    assert answer["reason"] == "separation_already_lost"
+    assert "Soonest out: " in answer["message"]
+
+
+def test_a_body_that_is_no_object_is_refused_in_a_sentence() -> None:
+    with TestClient(ideal_app()) as client:
+        refused = client.post(PATH, json=[])
+    assert refused.json()["detail"] == "The body must be an object with fields: a situation."
 
 
 def test_each_request_is_counted_once() -> None:
