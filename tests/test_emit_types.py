@@ -55,3 +55,9 @@ def test_every_type_that_is_named_is_there() -> None:
 def test_lines_are_as_the_formatter_leaves_them() -> None:
     assert all(len(line) <= 100 for line in wire_ts().splitlines())
     assert wire_ts().endswith("}\n")
+
+
+def test_no_field_in_degrees_is_said_to_be_in_radians() -> None:
+    file = wire_ts()
+    assert "_deg: number" in file
+    assert "[rad]" not in file

@@ -16,14 +16,17 @@ EXAMPLES = """
     relguide campaign examples/campaign.toml --dry-run   what it would fly
     relguide campaign examples/campaign.toml --out runs/wind
                                                          fly it on all cores; after a stop, go on
+    relguide campaign keys                               what may be varied or swept
     relguide campaign report runs/wind                   shares, quantiles, differences, the worst
     relguide campaign report runs/wind --figure wind.svg and the distributions, drawn
     relguide campaign show runs/wind 17                  fly one again and print it
     relguide campaign replay runs/wind 17 --record a.jsonl
                                                          fly one again and record it
     """
-DEEDS = {"report": 1, "show": 2, "replay": 2}
-"""What may be done with a folder, and how many words follow."""
+DEEDS = {"keys": 0, "report": 1, "show": 2, "replay": 2}
+"""What may be done besides flying, and how many words follow."""
+AFTER = ("nothing after it", "DIR", "DIR N")
+"""These words, for people, by how many they are."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -31,8 +34,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "words",
         nargs="+",
-        metavar="FILE.toml | report DIR | show DIR N | replay DIR N",
-        help="a campaign to fly, or what to do with the folder of one",
+        metavar="FILE.toml | keys | report DIR | show DIR N | replay DIR N",
+        help="a campaign to fly, what one may vary or sweep, or what to do with its folder",
     )
     parser.add_argument("--out", metavar="DIR", type=Path, help="keep the flights there")
     parser.add_argument(
@@ -49,21 +52,39 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> int:
-    """Fly a campaign, or do something with its folder."""
+    """Fly a campaign, say what one may vary, or do something with its folder."""
     deed, *rest = chosen.words
     if deed not in DEEDS:
         if rest:
             raise ValueError(
-                f"{deed} is followed by {rest[0]}: give one FILE.toml, or report DIR, show DIR N "
-                "or replay DIR N."
+                f"{deed} is followed by {rest[0]}: give one FILE.toml, or report DIR, show DIR N, "
+                "replay DIR N or keys."
             )
         return _fly(chosen, deed)
     if len(rest) != DEEDS[deed]:
-        wanted = "DIR" if DEEDS[deed] == 1 else "DIR N"
-        raise ValueError(f"relguide campaign {deed} takes {wanted}.")
+        raise ValueError(f"relguide campaign {deed} takes {AFTER[DEEDS[deed]]}.")
+    if deed == "keys":
+        return _keys(chosen)
     if deed == "report":
         return _report(chosen, Path(rest[0]))
     return _fly_again(chosen, Path(rest[0]), rest[1], record=deed == "replay")
+
+
+def _keys(chosen: argparse.Namespace) -> int:
+    from relguide.campaign.keys import KEYS
+
+    if for_people(chosen, "rich"):
+        from relguide.cli.campaign_tables import print_keys
+
+        print_keys(KEYS)
+    else:
+        write_json(
+            {
+                name: {"least": key.limits.low, "most": key.limits.high, "says": key.says}
+                for name, key in KEYS.items()
+            }
+        )
+    return DONE
 
 
 def _fly(chosen: argparse.Namespace, file: str) -> int:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from relguide.campaign.campaign_file import Campaign, Point
+from relguide.campaign.keys import Key
 from relguide.campaign.report import CampaignReport, Estimate, PointReport
 from relguide.campaign.row import FIGURES, Figure
 from relguide.cli.output import write
@@ -26,6 +27,17 @@ SHOWN = {figure.name: figure for figure in FIGURES}
 def command(folder: Path, flight: int | str) -> str:
     """What flies a flight again."""
     return f"relguide campaign show {folder} {flight}"
+
+
+def print_keys(keys: Mapping[str, Key]) -> None:
+    """Print what a campaign may vary or sweep, in the units of the names."""
+    shown = table("key of vary, sweep")
+    for heading in ("least", "most"):
+        shown.add_column(heading, justify="right", no_wrap=True)
+    shown.add_column("what it is")
+    for name, key in keys.items():
+        shown.add_row(name, f"{key.limits.low:,.9g}", f"{key.limits.high:,.9g}", key.says)
+    print_table(shown)
 
 
 def print_report(asked: Campaign, found: CampaignReport, folder: Path) -> None:

@@ -74,7 +74,8 @@ def run(chosen: argparse.Namespace) -> int:
 
 
 def _check(settings: Any) -> int:
-    """Say what a start would do, once settings and address are known to be usable."""
+    """Say what a start would do, once address, settings and tokens are known to be usable."""
+    _server("http.access").read_tokens(settings.tokens)
     records = _server("records.service")
     try:
         found = records.records_outlook(

@@ -126,8 +126,12 @@ class WireField:
 
     @property
     def doc(self) -> str:
-        """Its docstring, or nothing: read from the source when it is asked for."""
-        return field_docs(self.owner).get(self.name, "")
+        """Its docstring, or nothing: read from the source when it is asked for.
+
+        Radians are left out of it: the name says degrees.
+        """
+        said = field_docs(self.owner).get(self.name, "")
+        return said.replace(" [rad]", "") if self.wire_name.endswith("_deg") else said
 
 
 def to_wire(document: "Document | Card") -> dict[str, Any]:

@@ -25,7 +25,7 @@ class WindCard:
     """Uniform wind as reports give it."""
 
     from_: Radian
-    """Where it comes from, clockwise from north [rad]. JSON name: from_deg."""
+    """Where it comes from, clockwise from north [rad]."""
     speed: MetrePerSecond
 
 

@@ -33,11 +33,10 @@ BELOW = f"{PROXY}:8080/relguide"
 
 
 def install_services(root: Path) -> None:
-    """PostgreSQL, by what `.ci/run` installs it with, and nginx."""
-    (root / "postgresql").write_text((ROOT / ".ci/postgresql").read_text())
-    run_in(root, "apt-get update -q && sh /postgresql")
-    run_in(root, "sh /postgresql")  # which now finds it
-    run_in(root, "apt-get install -y -q --no-install-recommends nginx-light")
+    """PostgreSQL and nginx, by what `make test` installs them with."""
+    (root / "servers").write_text((ROOT / ".ci/servers").read_text())
+    run_in(root, "sh /servers")
+    run_in(root, "sh /servers")  # which now finds them
 
 
 def main() -> int:

@@ -1328,7 +1328,7 @@ export interface LeaderDataOrder {
 /** An aircraft is to turn to a heading. It drops its intent, or leaves its recording. */
 export interface LeaderHeading {
   kind: "leader_heading";
-  /** To roll out on, clockwise from north [rad]. */
+  /** To roll out on, clockwise from north. */
   heading_deg: number;
   direction: "left" | "right" | "shorter";
   /** Of the aircraft that is to do so; empty for the first link's leader. */
@@ -1374,7 +1374,7 @@ export interface LeaderReport {
   x_m: number;
   /** North [m]. */
   y_m: number;
-  /** Direction of its ground velocity, clockwise from north [rad]. */
+  /** Direction of its ground velocity, clockwise from north. */
   track_deg: number;
   /** [m/s]. */
   ground_speed_mps: number;
@@ -2005,7 +2005,7 @@ export interface PromiseChanged {
 /** The crew selects the bank that plans turn with. */
 export interface PursuerBank {
   kind: "pursuer_bank";
-  /** φ_max [rad], > 0. */
+  /** φ_max, > 0. */
   bank_deg: number;
   /** Of the pursuer whose crew does so; empty for the first link's. */
   ident: string;
@@ -2044,7 +2044,7 @@ export interface PursuerBankOrder {
 /** The crew selects a heading, which is flown until guidance is engaged. */
 export interface PursuerHeading {
   kind: "pursuer_heading";
-  /** Clockwise from north [rad]. */
+  /** Clockwise from north. */
   heading_deg: number;
   /** Of the pursuer whose crew does so; empty for the first link's. */
   ident: string;
@@ -2569,7 +2569,7 @@ export interface TurnSegment {
   direction: Direction;
   /** How far it turns. */
   angle_deg: number;
-  /** |φ| [rad]. */
+  /** |φ|. */
   bank_deg: number;
   /** In the air mass. */
   radius_m: number;
@@ -2654,7 +2654,7 @@ export interface WindBody {
 
 /** Uniform wind as reports give it. */
 export interface WindCard {
-  /** Where it comes from, clockwise from north [rad]. JSON name: from_deg. */
+  /** Where it comes from, clockwise from north. */
   from_deg: number;
   speed_mps: number;
 }

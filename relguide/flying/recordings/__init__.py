@@ -5,4 +5,5 @@
 `scn.py` (scenarios of BlueSky, which it flies). `files.py` finds the reader of a file, `samples.py`
 the collections of traffic. `flights.py` parts the reports into flights, `stretch.py` takes the part
 of one that can be flown behind, and `together.py` puts two into one plane and on one clock.
+`exchanged.py` refuses latitudes in the place of longitudes.
 """

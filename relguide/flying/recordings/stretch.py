@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.flying.recordings.exchanged import refuse_exchanged
 from relguide.flying.smoothing import MAX_GAP, MIN_POINTS, SmoothMotion, smooth_motion
 from relguide.flying.spline import Array
 from relguide.flying.tracks import RecordedTrack
@@ -41,6 +42,7 @@ def track_of(numbers: Array, ident: str, aircraft_type: str, source: str) -> Rec
     if not np.any(located):
         where = "in the air" if len(flown) < len(heard) else ""
         raise ValueError(f"{source} has no positions{' ' if where else ''}{where}.")
+    refuse_exchanged(flown, source)
     t, lat, lon, altitude, speed, track, _ = flown.T
     plane = middle_of(lat[located], lon[located])
     place, turned = np.full((len(t), 2), np.nan), np.full(len(t), np.nan)

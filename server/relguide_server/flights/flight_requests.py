@@ -6,11 +6,7 @@ from typing import NamedTuple
 
 from relguide.contract.flown_bodies import scenario_from_body
 from relguide.contract.intent_bodies import intent_from_body
-from relguide.contract.messages import (
-    FlightRequest,
-    ScenarioFlightRequest,
-    SituationFlightRequest,
-)
+from relguide.contract.messages import FlightRequest, ScenarioFlightRequest, SituationFlightRequest
 from relguide.contract.orders import Order, crew_order, fault_in, order_of
 from relguide.contract.pilot_bodies import pilot_of
 from relguide.contract.places import UNANCHORED, Anchor

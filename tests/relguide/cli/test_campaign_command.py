@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from relguide.campaign.keys import KEYS
 from relguide.contract.recorder import replay
 from relguide.flying.documents import FlightEnded
 from tests.command_line import Run
@@ -100,3 +101,18 @@ def test_without_pyarrow_a_sentence_names_the_extra(
     assert code == 2
     assert "pip install 'relguide[parquet]' brings it." in err
     assert not Path("out").exists()
+
+
+def test_what_may_be_varied_is_listed(run: Run) -> None:
+    code, out, err = run("campaign", "keys", "--json")
+    assert (code, err) == (0, "")
+    listed = json.loads(out)
+    assert list(listed) == list(KEYS)
+    assert listed["wind_mps"] == {"least": 0.0, "most": 150.0, "says": "wind speed"}
+    code, out, _ = run("campaign", "keys", "--table")
+    assert code == 0
+    for words in ("key of vary, sweep", "start_distance_m", "1,000,000", "where it comes from"):
+        assert words in out
+    assert run("campaign", "keys", "wind_mps") == (
+        2, "", "relguide: relguide campaign keys takes nothing after it.\n",
+    )  # fmt: skip

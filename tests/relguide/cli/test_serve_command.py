@@ -46,3 +46,5 @@ def test_a_check_changes_nothing(tmp_path: Path) -> None:
         "It can start. Nothing is recorded, as RELGUIDE_RECORDS is off.\n",
     )
     assert check("--queue", "0")[0] == 2
+    status, said = check("--records", "off", RELGUIDE_TOKENS="view:short")
+    assert (status, "16 characters or more" in said) == (2, True), said

@@ -16,7 +16,9 @@ import numpy as np
 from relguide.atc.reported import Reported
 from relguide.contract.recorder import read_lines
 from relguide.flying.documents import Sample
+from relguide.flying.recordings.exchanged import refuse_exchanged
 from relguide.flying.recordings.files import reports_in
+from relguide.flying.recordings.flights import flights_of
 from relguide.planning.frames import LocalPlane
 from relguide.units import DEG
 from relguide_server.atc.feeds.feed_state import FeedState, clock
@@ -70,6 +72,8 @@ def _of_flight(file: str, plane: LocalPlane) -> Iterator[Reported]:
 def _of_reports(file: str) -> Iterator[Reported]:
     """All reports of a file of recorded flights, in order of time, of aircraft in the air."""
     reports = reports_in(Path(file))
+    for flight in flights_of(reports):
+        refuse_exchanged(flight.numbers, f"{flight.name} of {file}")
     t, lat, lon, altitude, speed, track, ground = reports.numbers.T
     complete = np.isfinite(t + lat + lon + speed + track) & (ground != 1.0)
     rows = np.flatnonzero(complete)

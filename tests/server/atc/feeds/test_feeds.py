@@ -25,6 +25,7 @@ from relguide.units import FT, KT
 from tests.server.atc.feeds.asterix_bytes import block, track_062
 from tests.server.flown import ideal_flight
 from tests.server.serving import TestClient, ideal_app
+from tests.written_flights import rows, write_csv
 
 
 def aircraft(**more: Any) -> Reported:
@@ -188,6 +189,18 @@ def test_a_recording_with_places_is_played_to_its_end(tmp_path: Path) -> None:
     lost = FeedState(address="replay", reports=Reports())
     asyncio.run(play(str(tmp_path / "none.json"), None, lost))
     assert "cannot be played" in lost.message(time())
+
+
+def test_a_recording_with_exchanged_places_is_not_played(tmp_path: Path) -> None:
+    exchanged = [
+        row | {"latitude": row["longitude"], "longitude": row["latitude"]} for row in rows()
+    ]
+    file = write_csv(tmp_path / "track.csv", exchanged)
+    state = FeedState(address="replay", reports=Reports())
+    asyncio.run(asyncio.wait_for(play(str(file), None, state), 10.0))
+    assert state.taken == 0
+    assert "TEST12 of" in state.message(time())
+    assert "latitude and longitude are exchanged" in state.message(time())
 
 
 @pytest.mark.parametrize(
