@@ -1,10 +1,10 @@
 """Our pursuer in the place of real followers: `python -m benchmarks.pairs`.
 
 Each pair of consecutive arrivals of the Paris data is flown from when both are seen: the leader as
-it was recorded, its intent unknown; the pursuer from the follower's own place, track and speed. D
-is their real distance when the follower was established for good on the leader's final line, and
-d_min 3 NM, or less where they were closer. What became of it goes to
-benchmarks/results/real_pairs.csv; its figures are printed.
+it was recorded, its intent unknown; the pursuer from the follower's own place, height, track and
+speed, descending with the leader. D is their real distance when the follower was established for
+good on the leader's final line, and d_min 3 NM, or less where they were closer. What became of it
+goes to benchmarks/results/real_pairs.csv; its figures are printed.
 """
 
 import argparse
@@ -12,7 +12,6 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from math import inf
 from os import cpu_count
 from statistics import median
 
@@ -69,8 +68,8 @@ class Outcome:
     least: Metre
     why: str
     """Why it did not join; empty if it did."""
-    too_slow_from: Second = inf
-    """When the leader first flies slower than the pursuer can."""
+    reason: str
+    """In a word: what guidance was last unable for, or that the recording ended first."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -114,12 +113,13 @@ def fly_pair(pair: Pair) -> Outcome:
     except ValueError as refused:
         return Outcome(
             pair=pair, real=real, level="", joined=False, join_time=0.0, track=0.0, least=0.0,
-            why=str(refused),
+            why=str(refused), reason="speed",
         )  # fmt: skip
     documents = list(fly(scenario, plan, sample_period=1.0))
     ended = documents[-1]
     assert isinstance(ended, FlightEnded)
     (result,) = ended.results
+    why, reason = ("", "") if result.joined else _why(documents)
     return Outcome(
         pair=pair,
         real=real,
@@ -128,15 +128,14 @@ def fly_pair(pair: Pair) -> Outcome:
         join_time=result.join_time,
         track=result.track,
         least=result.least_separation,
-        why="" if result.joined else _why(scenario, documents),
-        too_slow_from=_too_slow_from(pair, _least_speed(scenario)),
+        why=why,
+        reason=reason,
     )
 
 
 def _scenario(pair: Pair, real: Established) -> Scenario:
     leader, follower = pair.leader.state_at(0.0), pair.follower.state_at(0.0)
     least = float(np.min(pair.separation))
-    slow = pair.leader.state_at(real.t).ground_speed
     return Scenario(
         name="real_pair",
         title=f"{pair.follower.ident} behind {pair.leader.ident}",
@@ -154,35 +153,23 @@ def _scenario(pair: Pair, real: Established) -> Scenario:
         leader_source=pair.leader,
         leader_ident=pair.leader.ident,
         leader_type=pair.leader.aircraft_type or "unknown",
-        altitude=_level(slow, follower.ground_speed, follower.altitude),
+        altitude=_level(follower.ground_speed, follower.altitude),
         after_joining=0.0,
     )  # fmt: skip
 
 
-def _level(slow: float, fast: float, preferred: Metre) -> Metre:
-    """Where ours can fly the follower's first speed and, if anywhere, the leader's later one."""
+def _level(first: MetrePerSecond, preferred: Metre) -> Metre:
+    """Where ours can fly the follower's first speed, nearest to where the follower was."""
     can = airframe(DEFAULT_TYPE)
-    try:
-        return level_for(can, STANDARD_AIR, slowest=min(slow, fast), fastest=fast)
-    except ValueError:
-        return level_for(can, STANDARD_AIR, slowest=fast, fastest=fast, preferred=preferred)
+    return level_for(can, STANDARD_AIR, slowest=first, fastest=first, preferred=preferred)
 
 
-def _why(scenario: Scenario, documents: list[Document]) -> str:
-    """What guidance said last of why it does not join."""
-    said = [document.message for document in documents if isinstance(document, Unable)]
-    return said[-1] if said else "still converging at the end of the recording"
-
-
-def _least_speed(scenario: Scenario) -> MetrePerSecond:
-    """Of the pursuer, where it flies."""
-    return airframe(scenario.pursuer_type).tas_range(scenario.altitude, STANDARD_AIR).least
-
-
-def _too_slow_from(pair: Pair, least: MetrePerSecond) -> Second:
-    """When the leader first flies slower than that; infinite if never."""
-    slower = np.flatnonzero(pair.leader.ground_speed < least)
-    return float(pair.leader.t[slower[0]]) if slower.size else inf
+def _why(documents: list[Document]) -> tuple[str, str]:
+    """What guidance said last of why it does not join, and its reason in a word."""
+    said = [document for document in documents if isinstance(document, Unable)]
+    if said:
+        return said[-1].message, said[-1].reason
+    return "still converging at the end of the recording", "end"
 
 
 def _cells(outcome: Outcome) -> list[str]:
@@ -218,17 +205,12 @@ def _figures(outcomes: list[Outcome]) -> Cells:
         ("joined", joined),
         ("sooner than the real follower", sooner),
         ("later", later),
-        (
-            "not joined; leader too slow for ours before the real join",
-            [outcome for outcome in missed if outcome.too_slow_from < outcome.real.t],
-        ),
-        (
-            "not joined; leader too slow for ours after the real join",
-            [outcome for outcome in missed if outcome.real.t <= outcome.too_slow_from < inf],
-        ),
-        (
-            "not joined, for another reason",
-            [outcome for outcome in missed if outcome.too_slow_from == inf],
+        *(
+            (
+                f"not joined: {reason}",
+                [outcome for outcome in missed if outcome.reason == reason],
+            )
+            for reason in sorted({outcome.reason for outcome in missed})
         ),
     )
     return [_line(name, some) for name, some in groups if some]

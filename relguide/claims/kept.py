@@ -27,21 +27,28 @@ def read_obtained(claims: Iterable[Claim], root: Path) -> dict[str, float]:
     Raises:
         ValueError: if a kept table has no such number.
     """
-    path = results(root) / FILE
-    last: dict[str, float] = {}
-    if path.exists():
-        with path.open(encoding="utf-8", newline="") as file:
-            last = {row["claim"]: float(row["obtained"]) for row in csv.DictReader(file)}
     kept = {c.name: read_table(c.reading, results(root)) for c in claims if c.runs == "kept"}
-    return last | kept
+    return _read_last(root) | kept
 
 
 def keep_obtained(claims: Iterable[Claim], new: Mapping[str, float], root: Path) -> None:
     """Put what was obtained now in place of what these claims had; others stay as they are."""
-    have = {**read_obtained(claims, root), **new}
-    with (results(root) / FILE).open("w", encoding="utf-8", newline="") as file:
+    have = {**_read_last(root), **new}
+    path = results(root) / FILE
+    part = path.with_suffix(".part")
+    with part.open("w", encoding="utf-8", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(["claim", "obtained"])
         for claim in claims:
             if claim.name in have and claim.runs != "kept":
                 rows.writerow([claim.name, f"{have[claim.name]:.10g}"])
+    part.replace(path)  # whole or not at all, if it is stopped here
+
+
+def _read_last(root: Path) -> dict[str, float]:
+    """What the last runs obtained."""
+    path = results(root) / FILE
+    if not path.exists():
+        return {}
+    with path.open(encoding="utf-8", newline="") as file:
+        return {row["claim"]: float(row["obtained"]) for row in csv.DictReader(file)}

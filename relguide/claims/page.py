@@ -20,7 +20,9 @@ relguide claims NAME       # some of them
 
 The command prints what each claim expects and what it obtains. It ends with 1 if a number is out of
 its tolerance, or if nothing was run at all. A claim that lacks a package is not run, and does not
-count. `--all` overwrites tables and pages of this clone, because some of its commands write them.
+count. A command that fails does not end the run. `--all` overwrites tables and pages of this clone,
+because some of its commands write them. With `--page docs/claims.md` each number is kept as soon as
+its command has ended, so a run that is stopped loses none.
 
 *Obtained* is of the last run that was kept here. *Not run* means that its own command measured the
 number when the page was written, and that `relguide claims` has not run it again since, nor for

@@ -27,7 +27,7 @@ def read_printed(reading: Reading, printed: str) -> float:
     """
     if reading.json:
         value = _in_json(printed, reading.json) / reading.divide_by
-        return 100.0 * value / _in_json(printed, reading.over) if reading.over else value
+        return _share(value, _in_json(printed, reading.over)) if reading.over else value
     return _in_text(printed, reading.pattern) / reading.divide_by
 
 
@@ -48,7 +48,7 @@ def read_table(reading: Reading, folder: Path) -> float:
     cells = [_cell(row, reading.column, reading) for row in rows]
     if reading.over:
         total = sum(_number(_cell(row, reading.over, reading)) for row in rows)
-        return 100.0 * sum(map(_number, cells)) / total
+        return _share(sum(map(_number, cells)), total)
     pattern = reading.pattern
     values = [_in_text(cell, pattern) if pattern else _number(cell) for cell in cells if cell]
     if reading.take in TAKE and values:
@@ -56,6 +56,13 @@ def read_table(reading: Reading, folder: Path) -> float:
     if len(values) != 1:
         raise ValueError(f"{reading.table} has {len(values)} such rows, not one.")
     return values[0] / reading.divide_by
+
+
+def _share(part: float, total: float) -> float:
+    """How much of the total that is [%]."""
+    if not total:
+        raise ValueError("It is a share of nothing: the total is 0.")
+    return 100.0 * part / total
 
 
 def _matches(row: Mapping[str, str], reading: Reading) -> bool:

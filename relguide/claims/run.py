@@ -23,6 +23,8 @@ MISSING = re.compile(
     r"pip install|^ModuleNotFoundError: No module named '(?!(relguide|benchmarks|tests|tools)\b)"
 )
 """In the last words of a command that misses a package of others."""
+TRACEBACK = "Traceback (most recent call last)"
+"""In what a command says that a mistake has ended."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,10 @@ def total_minutes(claims: Sequence[Claim]) -> float:
 
 
 def check_claims(claims: Sequence[Claim], root: Path | None) -> Iterator[Running]:
-    """Check claims; yields twice a second how far that is, and at last all that is known.
+    """Check claims; yields twice a second and after each command how far that is.
+
+    Where a command fails, its claims do not hold, and the others are still checked. At last all
+    is known, in the order of the claims.
 
     Args:
         claims: to be checked.
@@ -93,6 +98,7 @@ def check_claims(claims: Sequence[Claim], root: Path | None) -> Iterator[Running
         if root is None and any(claim.needs_clone for claim in rows):
             why = "It needs a clone of the repository."
             checked += [Checked(claim, why=why, ran=False) for claim in rows]
+            minutes += total_minutes(rows)
             continue
         kept = [claim for claim in rows if claim.runs == "kept"]
         if root is not None:
@@ -100,13 +106,16 @@ def check_claims(claims: Sequence[Claim], root: Path | None) -> Iterator[Running
         running = [claim for claim in rows if claim.runs != "kept"]
         if running:
             takes = running[0].minutes
+            seconds = 0.0
             for now in _run(command, root):
                 if isinstance(now, float):
-                    so_far = minutes + min(now / 60.0, takes)
-                    yield Running(command, now, so_far, (*checked,))
+                    seconds = now
+                    so_far = minutes + min(seconds / 60.0, takes)
+                    yield Running(command, seconds, so_far, (*checked,))
                 else:
                     checked += [_judge(claim, now) for claim in running]
             minutes += takes
+            yield Running(command, seconds, minutes, (*checked,))
     order = {claim.name: i for i, claim in enumerate(claims)}
     checked.sort(key=lambda one: order[one.claim.name])
     yield Running("", 0.0, minutes, (*checked,))
@@ -131,8 +140,8 @@ def _run(command: str, root: Path | None) -> Iterator[float | subprocess.Complet
     began = monotonic()
     with (
         tempfile.TemporaryDirectory() as folder,
-        tempfile.TemporaryFile("w+", encoding="utf-8") as out,
-        tempfile.TemporaryFile("w+", encoding="utf-8") as complaints,
+        tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as out,
+        tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as complaints,
     ):
         if root is not None:
             (root / "build").mkdir(exist_ok=True)  # where commands put what they make
@@ -165,7 +174,8 @@ def _judge(claim: Claim, done: subprocess.CompletedProcess[str]) -> Checked:
     last = (done.stderr.strip().splitlines() or [""])[-1]
     if done.returncode and MISSING.search(last):
         return Checked(claim, why=last, ran=False)
-    if done.returncode not in (0, 1):  # 1: no plan or a failed check, which is a result too
+    crashed = done.returncode == 1 and TRACEBACK in done.stderr
+    if crashed or done.returncode not in (0, 1):  # 1: no plan or a failed check, a result too
         return Checked(claim, why=f"It ended with the exit status {done.returncode}. {last}")
     try:
         return Checked(claim, read_printed(claim.reading, done.stdout))
@@ -176,5 +186,7 @@ def _judge(claim: Claim, done: subprocess.CompletedProcess[str]) -> Checked:
 def _judge_kept(claim: Claim, root: Path) -> Checked:
     try:
         return Checked(claim, read_table(claim.reading, results(root)))
+    except FileNotFoundError:
+        return Checked(claim, why=f"There is no table {claim.reading.table}.")
     except ValueError as error:
         return Checked(claim, why=str(error))

@@ -1,6 +1,7 @@
 """`relguide claims`: the numbers of README and docs, measured again and held against."""
 
 import argparse
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -65,22 +66,27 @@ def run(chosen: argparse.Namespace) -> int:
         raise ValueError("The page needs the tables of benchmarks/results: a clone has them.")
     if chosen.page is not None and not chosen.page.parent.is_dir():
         raise ValueError(f"There is no folder {chosen.page.parent} for the page: make it first.")
-    checked = _check(wanted, root)
+    checked: tuple[Checked, ...] = ()
+    try:
+        for checked in _check(wanted, root):
+            if chosen.page is not None and root is not None:
+                new = {one.claim.name: one.obtained for one in checked if one.obtained is not None}
+                keep_obtained(claims, new, root)
+    except KeyboardInterrupt:
+        _show(checked, people)
+        kept = " What they obtained is kept." if chosen.page is not None else ""
+        say(f"{len(checked)} of {len(wanted)} claims were checked.{kept}")
+        raise
+    if wanted:
+        _show(checked, people)
     if chosen.page is not None and root is not None:
-        new = {one.claim.name: one.obtained for one in checked if one.obtained is not None}
-        keep_obtained(claims, new, root)
         chosen.page.write_text(claims_page(claims, read_obtained(claims, root)), encoding="utf-8")
         say(f"Written: {chosen.page}.")
-    if not wanted:
-        return DONE
-    if people:
-        _print(checked)
-    else:
-        write_json({"claims": [_as_json(one) for one in checked]})
-    return _conclude(checked)
+    return _conclude(checked) if wanted else DONE
 
 
-def _check(wanted: "tuple[Claim, ...]", root: Path | None) -> "tuple[Checked, ...]":
+def _check(wanted: "tuple[Claim, ...]", root: Path | None) -> "Iterator[tuple[Checked, ...]]":
+    """Yields what is known whenever that is more, and at last all in the order of the file."""
     from relguide.claims.run import check_claims, total_minutes
 
     def state(now: "Running") -> str:
@@ -88,7 +94,7 @@ def _check(wanted: "tuple[Claim, ...]", root: Path | None) -> "tuple[Checked, ..
         name = " ".join(words[: 2 if words[:1] == ["relguide"] else 1])
         return f"{len(now.checked)} of {len(wanted)}, {name} {now.seconds:.0f} s"
 
-    checked: tuple[Checked, ...] = ()
+    known = 0
     for now in show_progress(
         check_claims(wanted, root),
         title="checking",
@@ -96,8 +102,16 @@ def _check(wanted: "tuple[Claim, ...]", root: Path | None) -> "tuple[Checked, ..
         done=lambda now: now.minutes,
         state=state,
     ):
-        checked = now.checked
-    return checked
+        if len(now.checked) > known or not now.command:
+            known = len(now.checked)
+            yield now.checked
+
+
+def _show(checked: "tuple[Checked, ...]", people: bool) -> None:
+    if people:
+        _print(checked)
+    else:
+        write_json({"claims": [_as_json(one) for one in checked]})
 
 
 def _print(checked: "tuple[Checked, ...]") -> None:

@@ -68,6 +68,35 @@ def test_a_command_that_gives_no_number_fails_with_what_it_says(command: str, wh
     assert re.search(why, one.why), one.why
 
 
+def test_what_is_printed_before_a_mistake_is_no_result(monkeypatch: pytest.MonkeyPatch) -> None:
+    program = "print('relguide 0', flush=True); 1 / 0"
+    monkeypatch.setattr(run, "arguments_of", lambda _: [sys.executable, "-c", program])
+    (one,) = check([CLAIM])
+    assert one.failed
+    assert one.why == "It ended with the exit status 1. ZeroDivisionError: division by zero"
+
+
+def test_after_what_fails_the_rest_is_checked(monkeypatch: pytest.MonkeyPatch) -> None:
+    programs = {
+        "killed": "import os; os.abort()",
+        "garbled": "import sys; sys.stdout.buffer.write(bytes([255]))",
+        "share": """print('{"part": 0, "whole": 0}')""",
+        "out": "print('relguide 10')",
+        "holds": "print('relguide 9')",
+    }
+    monkeypatch.setattr(
+        run, "arguments_of", lambda said: [sys.executable, "-c", programs[said.split()[1]]]
+    )
+    rows = [replace(CLAIM, name=name, command=f"relguide {name}") for name in programs]
+    rows[2] = replace(rows[2], reading=Reading(json="part", over="whole"))
+    table = replace(CLAIM, name="table", runs="kept", reading=Reading(table="no_such.csv"))
+    *failed, last = check([table, *rows])
+    assert [one.claim.name for one in failed if one.failed] == ["table", *programs][:-1]
+    assert last.ok
+    assert failed[0].why == "There is no table no_such.csv."
+    assert "share of nothing" in failed[3].why
+
+
 def test_from_a_wheel_what_needs_a_clone_does_not_run() -> None:
     alone, file, benchmark = check(
         [
@@ -101,6 +130,20 @@ def test_how_far_it_is_never_falls_and_ends_at_all_minutes() -> None:
     reached = [now.minutes for now in check_claims(twice, ROOT)]
     assert reached == sorted(reached)
     assert reached[-1] == pytest.approx(total_minutes(twice))
+
+
+def test_what_does_not_run_counts_as_done() -> None:
+    two = [CLAIM, replace(CLAIM, name="benchmark", command="python -m benchmarks.deadline")]
+    *_, last = check_claims(two, None)
+    assert last.minutes == pytest.approx(total_minutes(two))
+
+
+def test_what_a_command_obtained_is_known_before_the_next_begins() -> None:
+    second = replace(CLAIM, name="other", command="relguide --help")
+    known = [len(now.checked) for now in check_claims([CLAIM, second], ROOT) if now.command]
+    assert known[-1] == 2
+    begun = [now for now in check_claims([CLAIM, second], ROOT) if now.command == CLAIM.command]
+    assert (len(begun[-1].checked), begun[-1].minutes) == (1, CLAIM.minutes)
 
 
 def test_every_command_can_be_run_by_this_python() -> None:

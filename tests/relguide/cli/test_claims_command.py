@@ -1,6 +1,7 @@
 """`relguide claims` says of each claim whether it holds, and fails where one does not."""
 
 import json
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,7 +10,8 @@ import pytest
 from relguide.__main__ import main
 from relguide.claims import claim as registry
 from relguide.claims import kept, run
-from relguide.claims.claim import Reading
+from relguide.claims.claim import Claim, Reading
+from relguide.claims.run import Running
 from tests.relguide.claims.test_run import CLAIM
 
 FALSE = replace(CLAIM, name="false", at_most=None, at_least=10.0)
@@ -87,6 +89,30 @@ def test_a_page_without_its_folder_is_refused_before_anything_runs(
     folder = tmp_path / "nodir"
     assert main(["claims", "--quick", "--page", str(folder / "x.md")]) == 2
     assert f"There is no folder {folder} for the page" in capsys.readouterr().err
+
+
+def test_a_run_that_is_stopped_keeps_and_shows_what_it_obtained(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "benchmarks" / "results").mkdir(parents=True)
+    monkeypatch.setattr(kept, "clone", lambda: tmp_path)
+    whole = run.check_claims
+
+    def stopped(claims: Sequence[Claim], root: Path | None) -> Iterator[Running]:
+        for now in whole(claims, root):
+            yield now
+            if now.checked:
+                raise KeyboardInterrupt
+
+    monkeypatch.setattr(run, "check_claims", stopped)
+    second = replace(FALSE, command="relguide --help")
+    monkeypatch.setattr(registry, "all_claims", lambda: (CLAIM, second))
+    page = tmp_path / "claims.md"
+    assert main(["claims", "--quick", "--json", "--page", str(page)]) == 130
+    told = capsys.readouterr()
+    assert [row["name"] for row in json.loads(told.out)["claims"]] == ["version"]
+    assert "1 of 2 claims were checked. What they obtained is kept." in told.err
+    assert kept.read_obtained([CLAIM], tmp_path) == {"version": 0.0}
 
 
 @pytest.mark.parametrize(
