@@ -30,12 +30,13 @@ from pydantic import (
     TypeAdapter,
     ValidationError,
     create_model,
+    field_validator,
     model_validator,
 )
 
 from relguide.atc.documents import AtcDocument
 from relguide.contract.commands import Rate
-from relguide.contract.crew_lines import CrewOrderLine
+from relguide.contract.crew_lines import CrewOrderLine, StickOrder
 from relguide.contract.flown_bodies import FlownSituationBody
 from relguide.contract.intent_bodies import Intent
 from relguide.contract.order_lines import OrderLine
@@ -180,7 +181,9 @@ _KINDS = {
 }
 
 MAX_ORDERS = 1000
-"""Most orders that a request for a flight has, and most lines of a crew's script."""
+"""Most orders that a request for a flight has beside sticks, and most lines of a crew's script."""
+MAX_STICKS = 36_000
+"""Most sticks that it has: ten a second for an hour."""
 Seed = Annotated[int, Field(ge=0, le=2**32 - 1)]
 """Accepted seeds of a flight's random numbers."""
 SpacingTime = Annotated[float, Field(gt=0.0, le=SPACING.high)]
@@ -368,11 +371,31 @@ class _HowToFly(Strict):
     by_hand: ByHand = False
     """Whether a pilot model flies the pursuer by hand, along the flight director's bars; its
     constants, if they are not those that pilots were found to have."""
-    orders: list[OrderLine] = Field(default_factory=list, max_length=MAX_ORDERS)
-    """What aircraft are ordered at flight times, in order of time."""
+    orders: list[OrderLine] = Field(default_factory=list, max_length=MAX_ORDERS + MAX_STICKS)
+    """What aircraft are ordered at flight times, in order of time: at most 36,000 sticks, an hour
+    of flying by hand, and at most 1,000 others."""
     crew: Annotated[list[CrewOrderLine] | None, Field(max_length=MAX_ORDERS)] = None
     """The script of a crew that reacts. Guidance is off at the start, unless `engagement` or the
     first line, an engagement at 0 s, says otherwise."""
+
+    @field_validator("orders", mode="before")
+    @classmethod
+    def _expect_readable(cls, lines: Any) -> Any:
+        most = MAX_ORDERS + MAX_STICKS
+        if isinstance(lines, list) and len(lines) > most:  # before each of them is read
+            raise ValueError(f"must have at most {most:,} entries, not {len(lines):,}.")
+        return lines
+
+    @field_validator("orders")
+    @classmethod
+    def _expect_not_too_many(cls, lines: list[Any]) -> list[Any]:
+        sticks = sum(isinstance(line, StickOrder) for line in lines)
+        if sticks > MAX_STICKS:
+            raise ValueError(f"must have at most {MAX_STICKS:,} sticks, not {sticks:,}.")
+        if len(lines) - sticks > MAX_ORDERS:
+            others = len(lines) - sticks
+            raise ValueError(f"must have at most {MAX_ORDERS:,} beside sticks, not {others:,}.")
+        return lines
 
 
 class ScenarioFlightRequest(_HowToFly):

@@ -55,6 +55,7 @@ from relguide.flying.orders import (
 )
 from relguide_server.flights.catalogue import CatalogueOf
 from relguide_server.flights.control import HELD, MODELLED, MOST_RATE, TOO_FAST
+from relguide_server.flights.flight_requests import kept_request
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.peers import Peers
@@ -64,7 +65,9 @@ from relguide_server.flights.watchers import TooManyWatch
 from relguide_server.http.access import expect_owner, may_command, owner_of
 from relguide_server.http.bodies import (
     address_of,
+    expect_object,
     json_answer,
+    read_flights,
     read_object,
 )
 from relguide_server.http.errors import Refusal, refusal_of
@@ -148,10 +151,11 @@ async def start_flight(
     whether it is on record already (`yes`) or not, or not yet (`no`).
     """
     try:
-        asked = parse(NewFlight, await read_object(request)).root
+        asked = await read_flights(request, _read)
         wanted = begun_at_report(asked, request.app.state.reported_place)
         # A recorded leader is read from a file: not on the event loop.
         departure = await asyncio.to_thread(catalogue.find, wanted)
+        kept = await asyncio.to_thread(kept_request, wanted)
     except ContractError as error:
         raise refusal_of(error) from None
     if departure.first is not None:
@@ -164,7 +168,7 @@ async def start_flight(
             id=flight_id,
             scenario=departure.scenario,
             title=departure.title,
-            request=wanted.model_dump_json(exclude_unset=True),
+            request=kept,
             settings=request.app.state.settings.text_for_records(),
             seed=wanted.seed,
             requested_by=address_of(request),
@@ -319,6 +323,16 @@ async def _show(flight: LiveFlight, websocket: WebSocket) -> None:
         await client.pump(websocket, hear)
     finally:
         flight.leave(client)
+
+
+def _read(content: object) -> FlightRequest:
+    """What is asked to be flown.
+
+    Raises:
+        ContractError: naming each field that is wrong.
+    """
+    wanted: FlightRequest = parse(NewFlight, expect_object(content)).root
+    return wanted
 
 
 def status_of(flight: LiveFlight, request: Request) -> FlightStatus:
