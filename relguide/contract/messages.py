@@ -365,7 +365,8 @@ class _HowToFly(Strict):
     engagement: Engagement = "engaged"
     """How far guidance is engaged at the start."""
     seed: Seed = 0
-    """0 flies the type as its data say; any other draws its constants, unknown to its guidance."""
+    """0 flies the type as its data say; any other draws its constants, unknown to its guidance, and
+    those of a pilot model that is asked for without any."""
     spacing_time_s: SpacingTime | None = None
     """Time behind the leader to keep once joined; if left out, D is kept."""
     by_hand: ByHand = False

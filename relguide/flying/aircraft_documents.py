@@ -229,7 +229,7 @@ class LinkResult:
     join_time: Second
     """When eq. (7) first held within tolerance; the flight's duration if it never did."""
     planned_time: Second
-    """Time to converge of the plan at engagement; 0 if there was none."""
+    """Time to converge of the plan at engagement, from then on; 0 if there was none."""
     promised: Second
     """Time until joined that the plan at engagement promised, braking included; 0 as above."""
     least_separation: Metre

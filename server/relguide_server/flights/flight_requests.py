@@ -58,7 +58,7 @@ def scenario_of(wanted: FlightRequest) -> tuple[str, Scenario, Anchor]:
         found = replace(found, intent_known=wanted.intent_known)
     if wanted.spacing_time_s is not None:
         found = replace(found, spacing=wanted.spacing_time_s)
-    found = replace(found, by_hand=pilot_of(wanted.by_hand))
+    found = replace(found, by_hand=pilot_of(wanted.by_hand, wanted.seed))
     return name, found, anchor
 
 

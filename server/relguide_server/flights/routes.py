@@ -31,7 +31,6 @@ from relguide.contract.commands import (
 )
 from relguide.contract.compass import heading_of
 from relguide.contract.messages import FlightList, FlightRequest, FlightStatus, ScenarioList
-from relguide.contract.pilot_bodies import pilot_of
 from relguide.contract.protocol import PROTOCOL, STREAM
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.aircraft_documents import GuidanceSample, find_by_ident
@@ -182,7 +181,7 @@ async def start_flight(
         rate=wanted.rate,
         paused=wanted.paused,
         record=record,
-        modelled=pilot_of(wanted.by_hand) is not None,
+        modelled=wanted.by_hand is not False,
         reported_leader=getattr(wanted, "reported_leader", None) or "",
         owner=owner_of(request),
         client=client_of(request.scope),
