@@ -74,6 +74,7 @@ from relguide_server.http.etags import tagged_answer
 from relguide_server.http.idempotency import IdempotentRoute
 from relguide_server.http.openapi import (
     BODY,
+    header_references,
     problem_responses,
     request_body,
     response,
@@ -101,7 +102,9 @@ class FlightCommand(RootModel[Command]):
 FlightId = Annotated[
     str, Path(description="As `POST /flights` gave it.", examples=["3f2a9c0d71be"])
 ]
-ENDED: dict[int | str, dict[str, Any]] = {204: {"description": "It is over."}}
+ENDED: dict[int | str, dict[str, Any]] = {
+    204: {"description": "It is over.", "headers": header_references(["Relguide-Recorded"])}
+}
 
 router = APIRouter(
     prefix="/api/v1",
@@ -236,11 +239,15 @@ async def show_flight(flight_id: FlightId, request: Request, fleet: FleetOf) -> 
 async def end_flight(
     flight_id: FlightId, request: Request, fleet: FleetOf, records: RecordsOf
 ) -> Response:
-    """Its streams and its scene close with it; what is read of its record then is all of it."""
+    """Its streams and its scene close with it.
+
+    Where the header `Relguide-Recorded` says `yes`, what is read of its record then is all of it;
+    `no`: not yet, or it is not recorded.
+    """
     expect_owner(request, fleet.find(flight_id).label.owner)
     await fleet.remove(flight_id)
-    await records.saved()
-    return Response(status_code=204)
+    is_whole = await records.saved(to_the_end=True)
+    return Response(status_code=204, headers={"Relguide-Recorded": "yes" if is_whole else "no"})
 
 
 @router.post(
