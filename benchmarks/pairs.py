@@ -23,7 +23,7 @@ from benchmarks.options import positive
 from benchmarks.tables import Cells, markdown, write_table
 from relguide import plan
 from relguide.flying.air import STANDARD_AIR
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.documents import Document, FlightEnded, Unable
 from relguide.flying.envelope import flight_level, level_for
 from relguide.flying.flight import DEFAULT_TYPE, Scenario, fly

@@ -24,8 +24,8 @@ if typing.TYPE_CHECKING:
     from relguide.contract.recorder import replay as replay
     from relguide.flying.air import Air as Air
     from relguide.flying.airframe import Airframe as Airframe
-    from relguide.flying.airframe import airframe as airframe
-    from relguide.flying.airframe import load_airframe as load_airframe
+    from relguide.flying.airframe_files import airframe as airframe
+    from relguide.flying.airframe_files import load_airframe as load_airframe
     from relguide.flying.documents import Alert as Alert
     from relguide.flying.documents import Document as Document
     from relguide.flying.documents import EngagementChanged as EngagementChanged
@@ -144,8 +144,8 @@ _HOMES = {
     "replay": "relguide.contract.recorder",
     "Air": "relguide.flying.air",
     "Airframe": "relguide.flying.airframe",
-    "airframe": "relguide.flying.airframe",
-    "load_airframe": "relguide.flying.airframe",
+    "airframe": "relguide.flying.airframe_files",
+    "load_airframe": "relguide.flying.airframe_files",
     "Alert": "relguide.flying.documents",
     "Document": "relguide.flying.documents",
     "EngagementChanged": "relguide.flying.documents",

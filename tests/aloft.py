@@ -6,7 +6,8 @@ from math import inf
 import numpy as np
 
 from relguide.flying.air import STANDARD_AIR
-from relguide.flying.airframe import Airframe, airframe
+from relguide.flying.airframe import Airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.envelope import FL310
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.roots import FloatArray

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from relguide.flying.air import Air
-from relguide.flying.airframe import airframe, known_airframes
+from relguide.flying.airframe_files import airframe, known_airframes
 from relguide.units import FT, KT
 from tools.performance import ENGINES, as_toml, table
 

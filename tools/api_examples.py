@@ -22,7 +22,7 @@ from relguide_server.planning.plans import AMID, EXAMPLE
 from relguide_server.records.service import records_service
 from relguide_server.settings import ServiceSettings
 
-from relguide.contract.picture_bodies import moment
+from relguide.contract.moments import moment
 from tests.server.serving import TestClient
 
 FILE = Path(openapi.__file__).with_name(openapi.EXAMPLES)

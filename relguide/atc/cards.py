@@ -1,12 +1,9 @@
-"""Clearances and tracks as outsiders read them, and back: what is on record is all of them."""
-
-from collections.abc import Sequence
+"""Clearances and tracks as outsiders read them, and as they are on record."""
 
 import numpy as np
 
 from relguide.atc.documents import ClearanceCard, TrackCard
 from relguide.atc.life import Clearance
-from relguide.atc.request import Manoeuvre
 from relguide.atc.track import Track
 from relguide.kernels.base.roots import FloatArray
 
@@ -41,35 +38,6 @@ def card_of(clearance: Clearance) -> ClearanceCard:
     )
 
 
-def of_card(card: ClearanceCard) -> Clearance:
-    """The clearance that a card was made of."""
-    return Clearance(
-        id=card.id,
-        sky=card.sky,
-        flight_id=card.flight_id,
-        request=Manoeuvre(
-            ident=card.aircraft,
-            leader=card.traffic_id,
-            spacing_type=card.spacing_type,
-            spacing=card.spacing_time if card.spacing_type == "time" else card.slot_distance,
-            min_separation=card.min_separation,
-            path=track_of(card.route),
-            joins=card.joins,
-            leader_path=track_of(card.leader_route),
-            word=card.word,
-            bank=card.bank,
-            max_bank=card.max_bank,
-        ),
-        text=card.text,
-        state=card.state,
-        history=card.history,
-        due=card.due,
-        validation=card.validation[0] if card.validation else None,
-        deviations=card.deviations,
-        auto_answer=card.auto_answer,
-    )
-
-
 def track_card(track: Track) -> TrackCard:
     """A track in columns. Heights are left out unless all of them are known."""
     known = bool(np.all(np.isfinite(track.low)) and np.all(np.isfinite(track.high)))
@@ -84,21 +52,5 @@ def track_card(track: Track) -> TrackCard:
     )
 
 
-def track_of(card: TrackCard) -> Track:
-    """The track that a card was made of."""
-    return Track(
-        t=np.array(card.t),
-        x=np.array(card.x),
-        y=np.array(card.y),
-        low=_heights(card.low, -np.inf, len(card.t)),
-        high=_heights(card.high, np.inf, len(card.t)),
-        error=card.error,
-    )
-
-
 def _column(values: FloatArray) -> tuple[float, ...]:
     return tuple(values.tolist())
-
-
-def _heights(column: Sequence[float], unknown: float, knots: int) -> FloatArray:
-    return np.array(column) if column else np.full(knots, unknown)

@@ -2,7 +2,7 @@
 
 from math import hypot, inf
 
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import (
     HOLD_HEADING,

@@ -18,7 +18,7 @@ from relguide.campaign.case import Case
 from relguide.campaign.leader_orders import draw_command, draw_manoeuvre
 from relguide.campaign.starts import Draw, draw_situation, draw_turns
 from relguide.flying.air import STANDARD_AIR
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.flight import LeaderHeading, Scenario
 from relguide.kernels.base.angles import wrap
 from relguide.planning.aircraft import Leader

@@ -178,19 +178,26 @@ def _over_optimum(case: Case, optimum: Second | None, joined: Second | None) -> 
 
 
 def _why_not(documents: Sequence[Document]) -> str:
-    """Why it has not joined: what guidance was unable to do, else how it ended and in what mode."""
+    """Why it has not joined: what guidance was unable to do, else how it ended and in what mode.
+
+    One that flies on until it leaves the plane is unable once more there: what made it fly on
+    counts.
+    """
     last = documents[-1]
     assert isinstance(last, FlightEnded)
+    left = ""
     for document in reversed(documents):
         match document:
-            case Unable(reason=reason):
-                return f"unable: {reason}"
+            case Unable(t=t, reason=reason):
+                left = left or f"unable: {reason}"
+                if last.reason != "plane_left" or t < last.t:
+                    return f"unable: {reason}"
             case PlanChanged():
                 break
             case _:
                 pass
     modes = [one.guidance[0].mode for one in reversed(documents) if isinstance(one, Sample)]
-    return f"{last.reason} in {modes[0]}" if modes else last.reason
+    return left or (f"{last.reason} in {modes[0]}" if modes else last.reason)
 
 
 def _join_over_last_promise(changed: Sequence[PlanChanged], joined: Second | None) -> float | None:

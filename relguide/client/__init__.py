@@ -11,7 +11,7 @@ try:
     from relguide.client.async_client import AsyncClient, AsyncFlight
     from relguide.client.calls import Answer, Invalid, Refused
     from relguide.client.sync_client import Client, Flight
-    from relguide.contract.messages import Placed
+    from relguide.contract.document_models import Placed
 except ModuleNotFoundError as error:
     raise add_command(error) from None
 

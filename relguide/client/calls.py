@@ -12,7 +12,8 @@ from websockets.exceptions import ConnectionClosedError, InvalidStatus
 
 from relguide.client.bodies import Asked, body_of
 from relguide.contract.area_bodies import AreaAnswer
-from relguide.contract.messages import FlightStatus, from_wire, knows, plan_from_wire
+from relguide.contract.document_models import from_wire, knows, plan_from_wire
+from relguide.contract.messages import FlightStatus
 from relguide.contract.pilot_bodies import pilot_to_body
 from relguide.contract.simulation_bodies import SimulationAnswer
 from relguide.flying.documents import Document

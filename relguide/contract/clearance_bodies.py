@@ -11,8 +11,9 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from relguide.atc.documents import ClearanceCard, ReasonCode, TrackCard, ValidationCard
 from relguide.contract.bodies import WindBody
+from relguide.contract.document_models import AtcDocumentModel, model_of
 from relguide.contract.intent_bodies import Bank, Piece
-from relguide.contract.messages import AtcDocumentModel, SpacingTime, model_of
+from relguide.contract.messages import SpacingTime
 from relguide.contract.other_bodies import AnyTraffic, Distance, Ident, Tas
 from relguide.contract.places import (
     Altitude,

@@ -16,15 +16,13 @@ import numpy as np
 from pydantic_core import to_json
 
 from relguide.atc.documents import ClearanceCard, PairCard, TrackCard
+from relguide.contract.document_models import Placed
 from relguide.contract.geojson import DECIMALS, STRIDE, line_geometry
-from relguide.contract.messages import Placed
-from relguide.contract.picture_bodies import moment
+from relguide.contract.moments import moment
 from relguide.planning.frames import LocalPlane
 from relguide.units import Second
 
 ClearanceForm = Literal["geojson", "czml", "kml", "csv"]
-PLACELESS: tuple[ClearanceForm, ...] = ("csv",)
-"""Forms that need no place on the earth."""
 KML, GX = "http://www.opengis.net/kml/2.2", "http://www.google.com/kml/ext/2.2"
 SHIFTS = 20
 """Each leaves a share of what the last one was off by: a tenth or so, 600 km away at 60° N."""

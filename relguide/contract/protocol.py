@@ -19,17 +19,19 @@ from relguide.contract.clearance_bodies import (
 )
 from relguide.contract.commands import Command
 from relguide.contract.crew_lines import CrewOrderLine
-from relguide.contract.intent_bodies import Piece
-from relguide.contract.messages import (
+from relguide.contract.document_models import (
     AlternativeModel,
     AtcDocumentModel,
     DocumentModel,
-    FlightList,
-    FlightRequest,
     PathSegmentModel,
     PlanAnswer,
-    PlannerComparison,
     ReferenceModel,
+)
+from relguide.contract.intent_bodies import Piece
+from relguide.contract.messages import (
+    FlightList,
+    FlightRequest,
+    PlannerComparison,
     ScenarioList,
     Tick,
 )

@@ -225,7 +225,7 @@ def _check_header(line: bytes, path: Path) -> None:
 def _document(line: bytes, where: str) -> Document:
     from pydantic_core import from_json
 
-    from relguide.contract.messages import from_wire
+    from relguide.contract.document_models import from_wire
     from relguide.contract.refusal import ContractError
 
     if not line.endswith(b"\n"):

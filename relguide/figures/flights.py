@@ -10,14 +10,11 @@ from relguide.flying.aircraft_documents import LinkResult
 from relguide.flying.documents import (
     Document,
     FlightEnded,
-    PlanChanged,
-    PromiseChanged,
     Sample,
 )
 from relguide.flying.flight import Scenario, fly
 from relguide.flying.guidances import Guidance
 from relguide.planning.plan import plan
-from relguide.units import Second
 
 Floats = NDArray[np.float64]
 
@@ -47,8 +44,6 @@ class Flown:
     separation: dict[str, Floats]
     """Of each pursuer from its leader [m]."""
     results: tuple[LinkResult, ...]
-    promises: tuple[tuple[Second, Second], ...]
-    """What the first pursuer was told: when, and when it would have joined [s]."""
 
     @property
     def result(self) -> LinkResult:
@@ -83,11 +78,4 @@ def in_columns(documents: Iterable[Document]) -> Flown:
             for i, first in enumerate(samples[0].guidance)
         },
         results=ended.results,
-        promises=tuple(
-            (one.t, one.t + one.promised)
-            for one in told
-            if isinstance(one, PlanChanged | PromiseChanged)
-            and one.ident == ended.results[0].ident
-            and not (isinstance(one, PlanChanged) and not one.announced and one.t > 0.0)
-        ),
     )

@@ -7,25 +7,19 @@ Guidance sees a `Belief`, never the world.
 
 from dataclasses import replace
 from math import cos, hypot, inf, sin
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.flying.air import Air
+from relguide.flying.abilities import limits_of
 from relguide.flying.aircraft import AircraftState
-from relguide.flying.airframe import Airframe
-from relguide.flying.belief import Belief, FlownTrack
 from relguide.flying.leaders.declared import (
     Program,
     TurnChoice,
     program_of,
-    remaining,
-    straight_heading,
     turn_program,
 )
 from relguide.flying.leaders.recorded import RecordedLeader, steps_of_track, steps_to
-from relguide.flying.perception import CERTAIN, Perceived, Perception
 from relguide.flying.tracks import TrackState
 from relguide.flying.vertical import (
     begin_change,
@@ -37,14 +31,12 @@ from relguide.flying.vertical import (
     level_at,
     level_off,
 )
-from relguide.flying.world import FLOWN_POSITION, Aircraft, Declared, Guided, Recorded, World
-from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.flying.world import FLOWN_POSITION, Declared, Guided, Recorded, World
+from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight import by_hand
-from relguide.kernels.flight.energy import idle_deceleration
-from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits, limits_at
+from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits
 from relguide.kernels.flight.gusts import STATE, gust_steps
-from relguide.kernels.flight.program import STRAIGHT, fly_program
 from relguide.kernels.flight.second import (
     BY_BAR,
     BY_STICK,
@@ -55,44 +47,14 @@ from relguide.kernels.flight.second import (
     least_between,
 )
 from relguide.planning.heights import VERTICAL_MINIMUM, WHOLE_METRE, Heights
-from relguide.planning.intent import IntentPiece, LevelChange, SpeedRule
-from relguide.planning.limits import TAS
+from relguide.planning.intent import LevelChange, SpeedRule
 from relguide.planning.wind import Wind
-from relguide.units import DEG, G0, NM, Metre, MetrePerSecond, Radian, Second
+from relguide.units import G0, Metre, MetrePerSecond, Radian, Second
 
-LEADERS_ACCELERATION = 0.1
-"""A leader speeds up by so much at the least: often it is not of the type taken for it [m/s²]."""
-OFF_INTENT: Metre = 0.5 * NM
-"""So far from where it declared that it would be, a leader does not fly its intent [m]."""
-OFF_HEADING: Radian = 10.0 * DEG
-"""… nor so far off the heading that it declared [rad]."""
-NEAR_HEADING: Radian = 5.0 * DEG
-"""So near the heading that it declared, a leader is on it but for what is not known of the wind
-[rad]."""
-NO_PROGRAM = np.zeros((0, 3))
-ROLLS_BEFORE: Second = 8.0
-"""An aircraft begins to roll so long before a declared turn at the earliest [s]."""
-DECLARED_STEPS = 4
-"""Of a second, in which a leader is flown on as it declared."""
 NEW_LIMITS: Metre = 60.0
 """What an aircraft can do is computed anew once its level has changed by this [m]."""
 ASKED_LESS: MetrePerSecond = 3.0
 """An aircraft that flies so much faster than is asked is to slow down [m/s]."""
-
-
-class Flown(NamedTuple):
-    """What an aircraft declared, and how far it has come."""
-
-    program: Program
-    cursor: int
-    """The piece being flown; beyond the last on the final leg."""
-
-    def is_straight(self, t: Second) -> bool:
-        """Whether it flies straight, and does not roll into a turn yet."""
-        rows, k = self.program.rows, self.cursor
-        if k == len(rows):
-            return True
-        return bool(rows[k, 0] == STRAIGHT and rows[k, 1] - t > ROLLS_BEFORE)
 
 
 class Fleet:
@@ -479,136 +441,3 @@ class Fleet:
             if not (abs(x) <= edge and abs(y) <= edge):
                 return aircraft.ident
         return ""
-
-    def belief(
-        self,
-        i: int,
-        j: int,
-        track: FlownTrack,
-        t: Second,
-        known: bool,
-        declared: "Fleet | None" = None,
-        seen: Perceived | None = None,
-    ) -> Belief:
-        """What aircraft i knows of itself and of aircraft j.
-
-        Args:
-            i: the pursuer.
-            j: its leader.
-            track: the leader's flown path.
-            t: flight time [s].
-            known: whether the leader's intent is.
-            declared: the leader alone, as it declared to fly; `None` if it flies what it declared.
-            seen: what i perceives of j and the air; `None` if it sees the truth.
-        """
-        leader = self.body(j) if seen is None else seen.leader
-        source, k = (self, j) if declared is None else (declared, 0)
-        program, cursor = source.declared[k], int(source.cursors[k])
-        known = known and bool(source.pilots[k] == PROGRAMMED)
-        can = limits_at(self.limits, j)
-        intent = remaining(program, cursor, leader, can, t) if known else ()
-        rows, held = program.rows, program.held
-        holds = straight_heading(program, cursor)
-        if known and seen is not None:
-            # on a straight it holds what is seen of its heading: the wind there is not known better
-            straight = cursor == len(rows) or rows[cursor, 0] == STRAIGHT
-            if straight and abs(leader.heading - holds) < NEAR_HEADING:
-                holds = leader.heading
-            rows, cursor, held = rows[cursor:], 0, holds
-        own = self.body(i)
-        wind = self.wind(i) if seen is None else Wind(east=seen.wind.east, north=seen.wind.north)
-        return Belief(
-            t=t,
-            own=own,
-            limits=self.believed(i),
-            leader=leader,
-            leader_limits=self.believed_limits[j],
-            intent=intent,
-            intent_known=known,
-            program=rows if known else NO_PROGRAM,
-            cursor=cursor if known else 0,
-            held=held if known else leader.heading,
-            holds=holds if known else leader.heading,
-            leader_tas=leader.tas,
-            track=track,
-            wind=wind,
-            leader_age=0.0 if seen is None else seen.age,
-            spread=CERTAIN if seen is None else seen.spread,
-        )
-
-    def declared_by(self, j: int, declared: "Fleet | None") -> "Flown | None":
-        """What aircraft j declared and how far it has come; `None` where it declared nothing."""
-        source, k = (self, j) if declared is None else (declared, 0)
-        if source.pilots[k] != PROGRAMMED:
-            return None
-        return Flown(source.declared[k], int(source.cursors[k]))
-
-    def fly_declared(
-        self, j: int, declared: "Flown", body: Body, wind: Drift, t: Second
-    ) -> tuple[Body, int]:
-        """Aircraft j a second on from flight time t, as it declared, and the piece it then flies.
-
-        Args:
-            j: which.
-            declared: its program, and the piece it flies at t.
-            body: it, at t.
-            wind: as it is believed.
-            t: flight time [s].
-        """
-        dt, program, cursor = 1.0 / DECLARED_STEPS, declared.program, declared.cursor
-        for k in range(DECLARED_STEPS):
-            body, cursor = fly_program(
-                program.rows, cursor, program.held, body, self.believed_limits[j], wind,
-                t + k * dt, dt, body.tas,
-            )  # fmt: skip
-        return Body(*body), cursor
-
-    def as_declared(self, j: int, intent: tuple[IntentPiece, ...]) -> "Fleet":
-        """Aircraft j alone, as it declared that it would fly."""
-        alone = replace(self.world.aircraft[j], pilot=Declared(intent=intent))
-        calm = replace(self.world.air, gusts=0.0)
-        return Fleet(World(aircraft=(alone,), links=(), air=calm), self.step)
-
-    def breaks_its_word(self, j: int, declared: "Fleet") -> bool:
-        """Whether aircraft j is far from where it declared that it would be."""
-        here, there = self.states[j], declared.states[0]
-        if hypot(here[0] - there[0], here[1] - there[1]) > OFF_INTENT:
-            return True
-        return abs(wrap_signed(float(here[2] - there[2]))) > OFF_HEADING
-
-    def see(self, perception: Perception, i: int, j: int, t: Second) -> Perceived:
-        """What aircraft i perceives of aircraft j and of the air now."""
-        measured = self.blew(i) if t > 0.0 else None
-        return perception.see(t, self.body(j), self.drift(j), measured)
-
-
-def limits_of(aircraft: Aircraft, airframe: Airframe, air: Air) -> Limits:
-    """What an aircraft can do at its level and weight.
-
-    Leaders fly at any speed that is accepted, whatever their type: so they speed up and slow down,
-    without brakes, as their type does at the speed nearest to theirs.
-    """
-    guided = isinstance(aircraft.pilot, Guided)
-    rolls = (
-        aircraft.autopilot_bank if guided else aircraft.max_bank,
-        airframe.max_roll_rate,
-        airframe.roll_time_constant,
-        airframe.speed_time_constant,
-    )
-    if guided:
-        level, weight = aircraft.altitude, airframe.expect_weight("weight", aircraft.weight)
-        slowest, fastest = airframe.tas_range(level, air, weight)
-        climb, idle, brakes, induced = airframe.energy(level, air, weight)
-        return Limits(*rolls, *climb, *idle, brakes, induced, 1.0, slowest, fastest)
-    level = min(aircraft.altitude, airframe.ceiling)
-    slowest, fastest = airframe.tas_range(level, air)
-    tas = min(max(aircraft.tas, slowest), fastest)
-    faster = max(airframe.excess_acceleration(level, tas, air), LEADERS_ACCELERATION)
-    slower = airframe.idle_deceleration(level, tas, air)
-    return Limits(*rolls, faster, 0.0, 0.0, -slower, 0.0, 0.0, 0.0, 0.0, 1.0, TAS.low, TAS.high)
-
-
-def dependable_deceleration(limits: Limits, tas: MetrePerSecond) -> float:
-    """What idle thrust takes off at any speed from the least to a faster one [m/s²]."""
-    speeds = np.linspace(limits.min_tas, max(tas, limits.min_tas), 5).tolist()
-    return min(idle_deceleration(limits, speed, 1.0) for speed in speeds)

@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 from typing import Literal, assert_never
 
 from relguide.flying.air import Air
-from relguide.flying.airframe import Airframe, airframe, known_airframes
+from relguide.flying.airframe import Airframe
+from relguide.flying.airframe_files import airframe, known_airframes
 from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.flying.envelope import envelope_fault

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.dispersion import disperse
 from relguide.flying.world import Aircraft, Guided
 from relguide.planning.aircraft import Pursuer

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from relguide.flying.belief import Belief
 from relguide.flying.documents import LeaderChanged, LeaderRoute
 from relguide.flying.fleet import Fleet
+from relguide.flying.knowledge import breaks_its_word
 from relguide.flying.logbook import leader_route
 from relguide.flying.orders import (
     IntentKnown,
@@ -54,7 +55,7 @@ def doubt_leader(one: Pursuit, fleet: Fleet, t: Second) -> Iterator[LeaderChange
     """Find out a leader that does not fly what it declared; from then on its intent is unknown."""
     if one.declared is None or not one.known:
         return
-    one.doubted = one.doubted + 1 if fleet.breaks_its_word(one.leader, one.declared) else 0
+    one.doubted = one.doubted + 1 if breaks_its_word(fleet, one.leader, one.declared) else 0
     if one.doubted >= DOUBTED_FOR:
         one.declared, one.known = None, False
         message = "The leader does not fly what it declared; its intent is no longer relied on."

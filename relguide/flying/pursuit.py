@@ -6,13 +6,22 @@ from typing import NamedTuple
 
 import numpy as np
 
+from relguide.flying.abilities import dependable_deceleration, limits_of
 from relguide.flying.aircraft_documents import ClosestOther, FlownByHand, Loss
 from relguide.flying.belief import SEEMS, SPARE, Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
-from relguide.flying.fleet import Fleet, Flown, dependable_deceleration, limits_of
+from relguide.flying.fleet import Fleet
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
+from relguide.flying.knowledge import (
+    Flown,
+    as_declared,
+    belief_of,
+    declared_by,
+    fly_declared,
+    perceive,
+)
 from relguide.flying.logbook import PairNames
 from relguide.flying.orders import NewTask
 from relguide.flying.perception import Perceived, Perception
@@ -179,7 +188,7 @@ class Pursuit:
 
     def _with_heights(self, seen: Belief, fleet: Fleet, t: Second) -> Belief:
         """The same with both altitudes, and with the changes of level that both will make."""
-        declared = fleet.declared_by(self.leader, self.declared) if seen.intent_known else None
+        declared = declared_by(fleet, self.leader, self.declared) if seen.intent_known else None
         leader = fleet.heights(self.leader, t, None if declared is None else declared.program)
         own = fleet.heights(self.pursuer, t)
         if leader == own:
@@ -196,8 +205,8 @@ class Pursuit:
         if self.perception is not None and (seen is None or t > self.seen_at):
             seen = self._see(fleet, self.perception, t)
             self.seen, self.seen_at = seen, t
-        return fleet.belief(
-            self.pursuer, self.leader, self.track, t, self.known, self.declared, seen
+        return belief_of(
+            fleet, self.pursuer, self.leader, self.track, t, self.known, self.declared, seen
         )
 
     def _see(self, fleet: Fleet, perception: Perception, t: Second) -> Perceived:
@@ -207,8 +216,8 @@ class Pursuit:
         the turn aside by half a kilometre. From the straight before it the turn is known as well
         as that straight is.
         """
-        seen = fleet.see(perception, self.pursuer, self.leader, t)
-        declared = fleet.declared_by(self.leader, self.declared) if self.known else None
+        seen = perceive(fleet, perception, self.pursuer, self.leader, t)
+        declared = declared_by(fleet, self.leader, self.declared) if self.known else None
         if declared is None or (seen.leader.bank == 0.0 and declared.is_straight(t)):
             self.reckoned = None if declared is None else (seen.leader, declared)
             return seen
@@ -217,7 +226,7 @@ class Pursuit:
         before, flown = self.reckoned
         if flown.program is not declared.program:  # it was ordered to something else just now
             flown = declared
-        body, cursor = fleet.fly_declared(self.leader, flown, before, seen.wind, t - 1.0)
+        body, cursor = fly_declared(fleet, self.leader, flown, before, seen.wind, t - 1.0)
         off = hypot(body.x - seen.leader.x, body.y - seen.leader.y)
         turned = abs(wrap_signed(body.heading - seen.leader.heading))
         if off > AS_DECLARED + SEEMS * seen.spread.place or turned > TURNED_AS_DECLARED:
@@ -283,12 +292,12 @@ def begin_pursuit(
         believed = Drift(wind.east, wind.north)
         perception = Perception(world.surveillance, believed, world.air.gusts, rng)
         perception.listen(leader, drift, fleet.drift(i))
-        seen = fleet.see(perception, i, j, 0.0)
+        seen = perceive(fleet, perception, i, j, 0.0)
         leader, drift = seen.leader, seen.wind
     track = FlownTrack(leader, drift, 0.0, flown.slot_distance + SPARE)
     intent = flown.declared_intent
-    declared = None if intent is None else fleet.as_declared(j, intent)
-    belief = fleet.belief(i, j, track, 0.0, flown.intent_known, declared, seen)
+    declared = None if intent is None else as_declared(fleet, j, intent)
+    belief = belief_of(fleet, i, j, track, 0.0, flown.intent_known, declared, seen)
     assignment = assignment_of(world, flown)
     by_hand = fleet.is_by_hand(i)
     return Pursuit(

@@ -23,7 +23,7 @@ from importlib.util import find_spec
 from math import cos, sin
 
 from relguide.flying.air import STANDARD_AIR, Air
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.amid_scenarios import crossing_stream, thunderstorm_line
 from relguide.flying.dispersion import random_situation
 from relguide.flying.envelope import level_for

@@ -12,6 +12,7 @@ import numpy as np
 
 from relguide.flying.belief import Belief
 from relguide.flying.fleet import Fleet
+from relguide.flying.knowledge import as_declared, breaks_its_word, declared_by
 from relguide.flying.leaders.declared import remaining
 from relguide.flying.perception import Perceived, Perception
 from relguide.flying.pursuit import Pursuit
@@ -55,7 +56,7 @@ class Sky:
         for j, aircraft in enumerate(world.aircraft):
             match aircraft.pilot:
                 case Declared(declares=tuple(intent)):
-                    self._declared[j] = fleet.as_declared(j, intent)
+                    self._declared[j] = as_declared(fleet, j, intent)
                 case _:
                     pass
 
@@ -65,7 +66,7 @@ class Sky:
             if self._fleet.declared[j] is not self._programs[j]:
                 del self._declared[j]  # what it was ordered to do is what it declares from now on
                 continue
-            off = self._fleet.breaks_its_word(j, declared)
+            off = breaks_its_word(self._fleet, j, declared)
             self._doubted[j] = self._doubted.get(j, 0) + 1 if off else 0
             if self._doubted[j] >= DOUBTED_FOR:
                 self._broken.add(j)
@@ -127,7 +128,7 @@ class Sky:
         if j in self._broken and self._fleet.declared[j] is self._programs[j]:
             return None
         source = self._declared.get(j)
-        flown = self._fleet.declared_by(j, source)
+        flown = declared_by(self._fleet, j, source)
         if flown is None:
             return None
         return remaining(flown.program, flown.cursor, body, self._fleet.believed_limits[j], t)
@@ -135,7 +136,7 @@ class Sky:
     def _heights(self, j: int, t: Second, *, known: bool) -> Heights:
         """The altitude of an aircraft, and its changes: if it declared none, on as now."""
         fleet, climb = self._fleet, self._fleet.verticals[j].speed
-        flown = fleet.declared_by(j, self._declared.get(j)) if known else None
+        flown = declared_by(fleet, j, self._declared.get(j)) if known else None
         if flown is not None or isinstance(self._world.aircraft[j].pilot, Guided):
             return fleet.heights(j, t, None if flown is None else flown.program)
         here = Heights(altitude=fleet.verticals[j].altitude)

@@ -26,7 +26,13 @@ from relguide_server.atc.reports import Reports
 from relguide_server.atc.skies import Skies
 from relguide_server.atc.watching import Watching
 from relguide_server.feed_settings import feeds_of
-from relguide_server.flights import record_routes, routes, scene_relay, stream_docs
+from relguide_server.flights import (
+    flight_file_routes,
+    record_routes,
+    routes,
+    scene_relay,
+    stream_docs,
+)
 from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
 from relguide_server.flights.live_fleet import LiveFleet
 from relguide_server.flights.peers import Peers
@@ -181,6 +187,7 @@ def create_app(
         simulations.router,
         flown_scenarios.router,
         record_routes.router,
+        flight_file_routes.router,
         scene_relay.router,
         clearance_routes.router,
         export_routes.router,

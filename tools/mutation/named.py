@@ -67,7 +67,7 @@ NAMED = (
     ),
     Named(
         name="how fast the leader slows down",
-        file="relguide/flying/fleet.py",
+        file="relguide/flying/abilities.py",
         before="slower = airframe.idle_deceleration(",
         after="slower = 2.0 * airframe.idle_deceleration(",
     ),

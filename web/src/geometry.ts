@@ -126,16 +126,6 @@ export function cutPath(
     .filter((segment) => segment !== null);
 }
 
-/** Centre of a turn's circle in calm air, or in the air mass that is over the ground at its start [m]. */
-export function turnCentre(turn: TurnSegment): Vector {
-  const side = turn.direction === "right" ? 1 : -1;
-  const psi = turn.start.heading_deg * DEG;
-  return {
-    x: turn.start.x_m + side * turn.radius_m * Math.cos(psi),
-    y: turn.start.y_m - side * turn.radius_m * Math.sin(psi),
-  };
-}
-
 /** One turn as points no more than `maxAngle` [deg] of heading apart, both ends included. */
 export function sampleTurn(turn: TurnSegment, wind: Vector = CALM, maxAngle = 2): PathPoint[] {
   const count = Math.max(1, Math.ceil(turn.angle_deg / maxAngle));

@@ -4,6 +4,7 @@ import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import type { Alarm, Numbers } from "./store/numbers";
+import { Toggle } from "./toggle";
 
 /** A titled panel. `name` is its place in the grid and its class. */
 export function Panel(props: {
@@ -121,6 +122,16 @@ export function Icon(props: { name: keyof typeof ICONS }) {
     <svg class="icon" viewBox="0 0 24 24" aria-hidden="true" focusable="false">
       <path d={ICONS[props.name]} fill="currentColor" fill-rule="evenodd" />
     </svg>
+  );
+}
+
+/** Lets what stands in the scene's place have the room of the panels, or gives it back. */
+export function Maximise({ on }: { on: Signal<boolean> }) {
+  return (
+    <Toggle on={on}>
+      <Icon name={on.value ? "restore" : "maximise"} />
+      {on.value ? "Restore" : "Maximise"}
+    </Toggle>
   );
 }
 

@@ -9,7 +9,7 @@ import {
   untracked,
 } from "@preact/signals";
 import { comparePlanners } from "./api";
-import type { Rival } from "./store/picture";
+import type { Rival } from "./store/shown";
 import type { Flight } from "./store/types";
 import type { ComparedPlanner, PlannerVerdict } from "./wire";
 

@@ -1,37 +1,27 @@
-/** What somebody chose once for all their flights: kept by the browser, where it lets pages keep things. */
+/** What somebody chose once: kept by the browser, where it lets pages keep things. */
 
-import { effect } from "@preact/signals";
-import type { Session } from "./session";
+import { effect, type Signal } from "@preact/signals";
 
-const KEY = "relguide";
-
-type Preferences = Pick<
-  Session,
-  "letterKeys" | "sound" | "distinctColours" | "captions" | "pfdOpen"
->;
-const NAMES = ["letterKeys", "sound", "distinctColours", "captions", "pfdOpen"] as const;
-
-/** Takes up what was chosen before, keeps what is chosen from now on, and shows it. */
-export function keepPreferences(session: Preferences): void {
-  const kept = read();
-  for (const name of NAMES) {
+/** Takes up what was chosen before, and keeps what is chosen from now on, under the key of a page. */
+export function keepChoices(key: string, choices: Readonly<Record<string, Signal<boolean>>>): void {
+  const kept = read(key);
+  for (const [name, choice] of Object.entries(choices)) {
     const value = kept[name];
-    if (typeof value === "boolean") session[name].value = value;
+    if (typeof value === "boolean") choice.value = value;
   }
   effect(() => {
-    const chosen = Object.fromEntries(NAMES.map((name) => [name, session[name].value]));
-    document.documentElement.dataset.palette = session.distinctColours.value ? "distinct" : "usual";
+    const chosen = Object.entries(choices).map(([name, choice]) => [name, choice.value]);
     try {
-      localStorage.setItem(KEY, JSON.stringify(chosen));
+      localStorage.setItem(key, JSON.stringify(Object.fromEntries(chosen)));
     } catch {
       // A browser that keeps nothing: the choice holds as long as the page.
     }
   });
 }
 
-function read(): Record<string, unknown> {
+function read(key: string): Record<string, unknown> {
   try {
-    const kept: unknown = JSON.parse(localStorage.getItem(KEY) ?? "{}");
+    const kept: unknown = JSON.parse(localStorage.getItem(key) ?? "{}");
     return typeof kept === "object" && kept !== null ? { ...kept } : {};
   } catch {
     return {};

@@ -7,7 +7,7 @@ import type { HandFlying } from "./hands/hand-flying";
 import { createEditor, type Editor } from "./map/editor";
 import { createPlanners, type Planners } from "./planners";
 import { createHistory, type History } from "./store/history";
-import { createShown, type Shown } from "./store/picture";
+import { createShown, type Shown } from "./store/shown";
 import type { Flight } from "./store/types";
 import type { Direction, Engagement, FlightStatus, ScenarioInfo } from "./wire";
 
@@ -15,7 +15,7 @@ import type { Direction, Engagement, FlightStatus, ScenarioInfo } from "./wire";
 export type NdMode = "ROSE" | "ARC" | "PLAN";
 export const ND_RANGES = [10, 20, 40, 80, 160, 320] as const;
 /** Range of the navigation display [NM]. */
-export type NdRange = (typeof ND_RANGES)[number];
+type NdRange = (typeof ND_RANGES)[number];
 /** Simulated seconds per wall-clock second, as offered. */
 export const RATES = [1, 2, 5, 10, 20, 60] as const;
 

@@ -6,9 +6,10 @@ import {
   pointAlong,
   samplePath,
   sampleTurn,
-  turnCentre,
+  type Vector,
   windVector,
 } from "../src/geometry";
+import { DEG } from "../src/units";
 import type { PathPoint, TurnSegment } from "../src/wire";
 import { point, rightTurn, straight } from "./samples";
 
@@ -29,6 +30,16 @@ function blown(turn: TurnSegment): TurnSegment {
     end.heading_deg,
   );
   return { ...turn, end: moved };
+}
+
+/** Centre of a turn's circle in calm air [m]. */
+function turnCentre(turn: TurnSegment): Vector {
+  const side = turn.direction === "right" ? 1 : -1;
+  const psi = turn.start.heading_deg * DEG;
+  return {
+    x: turn.start.x_m + side * turn.radius_m * Math.cos(psi),
+    y: turn.start.y_m - side * turn.radius_m * Math.sin(psi),
+  };
 }
 
 describe("a path over the ground", () => {

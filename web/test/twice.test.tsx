@@ -11,7 +11,7 @@ import type { Camera } from "../src/scene/camera";
 import { textsOf } from "../src/scene/texts";
 import { createSession } from "../src/session";
 import { createFlightStore } from "../src/store/flight";
-import type { Shown } from "../src/store/picture";
+import type { Shown } from "../src/store/shown";
 import { GUIDANCES } from "../src/store/states";
 import type { Flight } from "../src/store/types";
 import { forecastOf } from "./nd/fixture";

@@ -6,7 +6,7 @@ import { NavigationDisplay } from "../src/nd/nd";
 import { Help } from "../src/panels/help";
 import { createSession } from "../src/session";
 import { createFlightStore } from "../src/store/flight";
-import { createShown } from "../src/store/picture";
+import { createShown } from "../src/store/shown";
 import { ELEMENTS, elementOf } from "../src/words";
 import { flightAt } from "./nd/fixture";
 import { silentActions } from "./silence";

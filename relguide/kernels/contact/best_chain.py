@@ -11,6 +11,7 @@ from numba import njit
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Pose, Scene, with_time
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.begun_nearby import search_nearby
 from relguide.kernels.contact.chain import MAX_LEGS, chain_of
 from relguide.kernels.contact.chain_refinement import (
     GAIN,
@@ -19,14 +20,11 @@ from relguide.kernels.contact.chain_refinement import (
     refine_chain,
     simplify_chain,
 )
-from relguide.kernels.contact.neighbourhoods import (
-    Task,
-    add_boundary_arcs,
-    keep_chain,
-    search_nearby,
-    slide_from_touches,
-    take_other_words,
-)
+from relguide.kernels.contact.kept_chains import keep_chain
+from relguide.kernels.contact.more_arcs import add_boundary_arcs
+from relguide.kernels.contact.neighbourhoods import Task
+from relguide.kernels.contact.other_words import take_other_words
+from relguide.kernels.contact.touch_and_slide import slide_from_touches
 
 AGAIN = 2
 """So often a chain that has become faster is begun again from nearby."""
@@ -57,7 +55,7 @@ def refine_chains(
         arcs: whether boundary arcs are put into the best one.
         best: an arrival already known [R/V_P].
         legs: takes those of the best chain. shape (MAX_LEGS, 6)
-        spare: takes some of the others, of `neighbourhoods.no_chains`.
+        spare: takes some of the others, of `kept_chains.no_chains`.
 
     Returns:
         the least arrival [R/V_P] and the number of its legs; `best` and 0 if none is earlier.

@@ -35,8 +35,8 @@ from relguide.kernels.contact.contact import contact_at, contact_exists
 from relguide.kernels.contact.contact_graph import best_chains
 from relguide.kernels.contact.graph_chains import LATE
 from relguide.kernels.contact.graph_labels import Effort
+from relguide.kernels.contact.kept_chains import are_alike, keep_chain, no_chains
 from relguide.kernels.contact.looped_word import looped_word
-from relguide.kernels.contact.neighbourhoods import are_alike, keep_chain, no_chains
 from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_nodes, nodes_closer
 from relguide.kernels.contact.one_contact import descend_basins, scan_contacts
 from relguide.kernels.contact.paths_to_contact import paths_to_contact
@@ -199,7 +199,7 @@ def _look(
         beat: an arrival already known [R/V_P].
         legs: takes the legs of the path.
         chain: takes its contacts, if there are two or more. shape (MAX_CONTACTS, 4)
-        spare: takes other chains, of `neighbourhoods.no_chains`.
+        spare: takes other chains, of `kept_chains.no_chains`.
     """
     path = np.empty((2, 5))
     best = scan_contacts(start, scene, nodes, fresh, beat, path)

@@ -38,22 +38,9 @@ def view(
 ) -> tuple[bool, Where]:  # fmt: skip
     """Where pursuer, slot and leader are, and whether the fastest path without the limit breaks it.
 
-    Args:
-        x: the pursuer at t = 0, east [m].
-        y: the same, north [m].
-        heading: its heading, clockwise from north [rad].
-        tas: V_P [m/s].
-        radius: R [m].
-        leader_x: the leader at t = 0, east [m].
-        leader_y: the same, north [m].
-        leader_heading: its heading, kept for ever, clockwise from north [rad].
-        leader_tas: V_L [m/s].
-        slot_distance: D [m].
-        min_separation: d_min [m].
-        wind_east: the air mass over the ground [m/s].
-        wind_north: the same, north [m/s].
-        free: takes the fastest extremal, a row of `solve`; that of the mirror image where the
-            situation `needs_mirror`; nothing where the slot lies aside. shape (5,)
+    Arguments as of `straight_leader.fastest_to_slot`; besides, `min_separation` is d_min [m], and
+    `free`, of shape (5,), takes the fastest extremal, a row of `solve`: that of the mirror image
+    where the situation `needs_mirror`; nothing where the slot lies aside.
 
     Returns:
         whether the limit binds: never where the slot lies aside of the leader's route, as it does

@@ -56,8 +56,12 @@ def _total(
 
 
 @njit(cache=True, nogil=True)
-def delay_paths(pose: Pose, alpha: float, t_release: float, paths: FloatArray) -> int:
-    """Paths of length exactly t_release to the slot's place when it opens.
+def straight_delays(pose: Pose, alpha: float, t_release: float, paths: FloatArray) -> int:
+    """Paths of length exactly t_release to the slot's place when it opens, with two turns at most.
+
+    And words that have this length as they are. All of their families are found: along a straight
+    put before or after it, a word with a straight in its middle grows longer at a rate of
+    1 − cos(turn between the two), never shorter.
 
     Args:
         pose: the pursuer's, seen from the slot.
@@ -68,17 +72,6 @@ def delay_paths(pose: Pose, alpha: float, t_release: float, paths: FloatArray) -
 
     Returns:
         how many paths.
-    """
-    n = straight_delays(pose, alpha, t_release, paths)
-    return turning_delays(pose, alpha, t_release, paths, n)
-
-
-@njit(cache=True, nogil=True)
-def straight_delays(pose: Pose, alpha: float, t_release: float, paths: FloatArray) -> int:
-    """Those of `delay_paths` with two turns at most, and words that have this length as they are.
-
-    All of their families are found: along a straight put before or after it, a word with a straight
-    in its middle grows longer at a rate of 1 − cos(turn between the two), never shorter.
     """
     n, end_x = 0, alpha * t_release
     if norm(end_x - pose.x, pose.y) > t_release + _SAME:
@@ -95,7 +88,7 @@ def straight_delays(pose: Pose, alpha: float, t_release: float, paths: FloatArra
 
 @njit(cache=True, nogil=True)
 def turning_delays(pose: Pose, alpha: float, t_release: float, paths: FloatArray, n: int) -> int:
-    """Append the rest of `delay_paths` to `n` paths: three turns or more."""
+    """Append to the n paths of `straight_delays` those with three turns or more: how many then."""
     end_x = alpha * t_release
     if norm(end_x - pose.x, pose.y) > t_release + _SAME:
         return n

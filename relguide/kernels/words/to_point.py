@@ -1,18 +1,15 @@
-"""Words to a point at rest: the length of one branch, or of all that share circles at once.
+"""Words to a point at rest: the length of a branch.
 
 Slot frame as in `extremals`: lengths in R, angles counter-clockwise; the point is met on heading 0.
 With first and last turn to the same side (ε = 1: LSL, LRL) or to opposite ones (LSR), d the vector
 between the centres of their circles and β the course of the straight,
 
     LSL   β = arg d, l = |d|;        LSR   β = arg d + ε arcsin(2/|d|), l² = |d|² − 4;
-    LRL   |d| = 4 sin(m/2), m or 2π − m; the first turn ends on the heading arg d + ε m/2,
-
-so four vectors give all eight branches.
+    LRL   |d| = 4 sin(m/2), m or 2π − m; the first turn ends on the heading arg d + ε m/2.
 """
 
 from math import asin, atan2, sqrt
 
-import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to
@@ -76,56 +73,3 @@ def word_between(dx: float, dy: float, h: float, branch: int, piece: FloatArray)
         )
     piece[1] = middle
     return float(piece[0] + middle + piece[2])
-
-
-@njit(cache=True, nogil=True)
-def every_word(start: Start, words: int, lengths: FloatArray, turns: FloatArray) -> None:
-    """All branches of some words to (0, 0) on heading 0, as `word_from` gives them one by one.
-
-    Args:
-        start: where they begin.
-        words: the words, as a sum of 2 to the power of their numbers; one with three turns belongs
-            to that with the same first and last turn, and comes with it.
-        lengths: takes the length of each branch [R]; NaN if it does not reach. shape (SIZE,)
-        turns: takes the first and the last turn of each [rad]. shape (SIZE, 2)
-    """
-    x, y, h, sin_h, cos_h = start
-    for k in range(2):
-        first = 1.0 - 2.0 * k
-        if words & (1 << k):
-            dx, dy = first * sin_h - x, first - y - first * cos_h
-            gap, course = norm(dx, dy), atan2(dy, dx)
-            _put_turns(first, first, h, course, course, gap, k, lengths, turns)
-            short, long = 4 + 2 * k, 5 + 2 * k
-            if gap > 4.0:
-                lengths[short] = lengths[long] = np.nan
-            else:
-                middle = 2.0 * asin(0.25 * gap)
-                half = 0.5 * first * middle
-                begun, ended = course + half, course - half
-                _put_turns(first, first, h, begun, ended, middle, short, lengths, turns)
-                # the other way round the middle circle
-                middle, half = TWO_PI - middle, first * (0.5 * TWO_PI) - half
-                begun, ended = course + half, course - half
-                _put_turns(first, first, h, begun, ended, middle, long, lengths, turns)
-        if not words & (4 << k):
-            continue
-        # to opposite sides
-        dx, dy = first * sin_h - x, -first - y - first * cos_h
-        gap = norm(dx, dy)
-        if gap < 2.0:
-            lengths[2 + k] = np.nan
-        else:
-            course = atan2(dy, dx) + first * asin(2.0 / gap)
-            straight = sqrt(gap * gap - 4.0)
-            _put_turns(first, -first, h, course, course, straight, 2 + k, lengths, turns)
-
-
-@njit(cache=True, nogil=True)
-def _put_turns(
-    first: float, last: float, h: float, begun: float, ended: float, middle: float, branch: int,
-    lengths: FloatArray, turns: FloatArray,
-) -> None:  # fmt: skip
-    """Put down a branch whose middle piece begins and ends on these headings."""
-    turns[branch, 0], turns[branch, 1] = turn_to(first * (begun - h)), turn_to(-last * ended)
-    lengths[branch] = turns[branch, 0] + middle + turns[branch, 1]

@@ -180,11 +180,6 @@ def pairs_of(tree: RegularTree, nodes: Ints) -> Floats:
     return pairs
 
 
-def regular_of(tree: RegularTree, node: int) -> RegularTrajectory:
-    """The path from a node to the slot in the paper's form."""
-    return regular_from_pairs(pairs_of(tree, np.array([node], np.int32))[0])
-
-
 def regular_from_pairs(pairs: Floats, *, mirrored: bool = False) -> RegularTrajectory:
     """One row of `pairs_of` as triplets, which count backward from the slot.
 

@@ -7,9 +7,7 @@ import asyncio
 import secrets
 import time
 from collections.abc import Callable, Coroutine
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from functools import partial
 from typing import Annotated, Any
 
 import orjson
@@ -17,30 +15,24 @@ from fastapi import Depends
 from starlette.requests import HTTPConnection
 
 from relguide.atc import life
-from relguide.atc.alternatives import suggest
 from relguide.atc.cards import card_of
 from relguide.atc.documents import (
-    AlternativeManoeuvre,
     AtcDocument,
     ClearanceChanged,
     ProbeChanged,
     TrafficSeen,
-    ValidationCard,
 )
 from relguide.atc.life import Clearance
 from relguide.atc.phraseology import request_text
 from relguide.atc.request import Manoeuvre
 from relguide.atc.settings import AtcSettings
-from relguide.atc.validate import validate
 from relguide.contract.clearance_bodies import ClearanceAnswer, ClearanceReply
-from relguide.planning.acceptance import with_deadline
-from relguide.planning.plan import plan
 from relguide.units import Second
+from relguide_server.atc.automation import Automation
 from relguide_server.atc.cases import Case, Cases
 from relguide_server.atc.crew_news import crew_news, is_news
 from relguide_server.atc.journal import Journal, written
 from relguide_server.atc.skies import Skies
-from relguide_server.atc.slots import with_its_place
 from relguide_server.flights.watchers import Watchers
 from relguide_server.http.errors import Refusal
 from relguide_server.http.metrics import Metrics
@@ -50,10 +42,6 @@ from relguide_server.records.noted_clearances import STOPPED, ended
 from relguide_server.records.service import RecordsService
 from relguide_server.settings import ServiceSettings
 
-SUGGESTING: Second = 1.0
-"""How long alternatives are looked for …"""
-A_PLAN: Second = 0.3
-"""… and how long one of them may be planned."""
 SHOWN_OVER = 50
 """Clearances that are over and still in a snapshot."""
 
@@ -82,6 +70,7 @@ class Desk:
             clock: tells UTC.
         """
         self.skies, self.rules, self.cases = skies, rules or AtcSettings(), Cases()
+        self.automation = Automation(skies, self.cases, self.rules)
         self.journal = Journal(self._snapshot, metrics, clock)
         self.traffic: dict[str, bytes] = {}
         """The newest of each sky, as it was written."""
@@ -89,8 +78,6 @@ class Desk:
         self.answering = 0
         """Streams that are open of those who may answer."""
         self._settings, self._records, self._clock = settings, records, clock
-        self._pool = ThreadPoolExecutor(1, thread_name_prefix="validation")
-        self._suggesting = ThreadPoolExecutor(1, thread_name_prefix="alternatives")
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def stop(self) -> None:
@@ -98,8 +85,7 @@ class Desk:
         for task in list(self._tasks):
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
-        self._pool.shutdown(wait=False, cancel_futures=True)
-        self._suggesting.shutdown(wait=False, cancel_futures=True)
+        self.automation.stop()
         for case in self.cases.living():
             self._note(case, stopped=True)
 
@@ -204,21 +190,6 @@ class Desk:
             self._supersede(case, again.clearance.id)
         return again
 
-    async def try_out(
-        self, manoeuvre: Manoeuvre, sky: str, *, flight_id: str = "", pursuer: str = ""
-    ) -> ValidationCard:
-        """What automation finds of a manoeuvre; nothing is kept of it.
-
-        Args:
-            manoeuvre: what would be flown.
-            sky: in which.
-            flight_id: the flight that would; empty if it is none of this service.
-            pursuer: its ident in that flight.
-        """
-        found = await self._find(manoeuvre, sky)
-        offered = await self._suggest(found, manoeuvre, sky, flight_id, pursuer)
-        return replace(found, alternatives=offered)
-
     def answer(self, case: Case, said: ClearanceAnswer) -> None:
         """The controller answers a request, or takes a clearance back.
 
@@ -248,7 +219,7 @@ class Desk:
         """
         found = None
         if said.reply == "WILCO" and case.state == "accepted":
-            found = await self._find_of(case)
+            found = await self.automation.find_of(case)
         now, at = self.now(case), self.at()
         self._step(
             case,
@@ -318,7 +289,7 @@ class Desk:
             return
         case.checking = True
         try:
-            found = await self._find_of(case)
+            found = await self.automation.find_of(case)
         finally:
             case.checking = False
         if not case.lives:
@@ -361,40 +332,6 @@ class Desk:
         if not answers or 0.0 < clearance.due <= now:  # `tick` ends what is due
             return clearance
         return life.answer_as_advised(clearance, now=now, at=self.at(), settings=self.rules)
-
-    async def _find_of(self, case: Case) -> ValidationCard:
-        """What automation finds of a clearance now, its place considered."""
-        found = await self._find(case.clearance.request, case.clearance.sky)
-        case.checked = self.skies.now(case.clearance.sky)
-        found, before = with_its_place(case, found, self.cases, self.rules), case.clearance
-        if before.validation is not None and before.validation.verdict == found.verdict:
-            return replace(found, alternatives=before.validation.alternatives)
-        offered = await self._suggest(
-            found, before.request, before.sky, before.flight_id, case.pursuer
-        )
-        return replace(found, alternatives=offered)
-
-    async def _suggest(
-        self, found: ValidationCard, manoeuvre: Manoeuvre, sky: str, flight_id: str, pursuer: str
-    ) -> tuple[AlternativeManoeuvre, ...]:
-        """What a flight could fly in place of what is not acceptable; none of what is."""
-        situation = None
-        if found.verdict == "unable" and flight_id:
-            situation = self.skies.situation(flight_id, pursuer)
-        if situation is None:
-            return ()
-        picture = self.skies.picture(sky, self.cases.cleared(sky))
-        work = partial(
-            suggest, situation, manoeuvre, picture, self.skies.now(sky), self.rules,
-            planner=with_deadline(plan, A_PLAN), within=SUGGESTING,
-        )  # fmt: skip
-        return await asyncio.get_running_loop().run_in_executor(self._suggesting, work)
-
-    async def _find(self, manoeuvre: Manoeuvre, sky: str) -> ValidationCard:
-        await self.skies.prepare(sky)
-        picture = self.skies.picture(sky, self.cases.cleared(sky))
-        now, loop = self.skies.now(sky), asyncio.get_running_loop()
-        return await loop.run_in_executor(self._pool, validate, manoeuvre, picture, now, self.rules)
 
     def _tell_crew(self, case: Case) -> None:
         """Say in the flight that flies it what is new of a clearance."""

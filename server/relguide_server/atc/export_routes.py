@@ -9,7 +9,7 @@ from starlette.responses import Response
 from relguide.atc.cards import card_of
 from relguide.atc.documents import ClearanceCard
 from relguide.contract.clearance_exports import export_clearance, plane_of
-from relguide.contract.messages import card_from_wire
+from relguide.contract.document_models import card_from_wire
 from relguide.planning.extras import MissingExtra
 from relguide.planning.frames import LocalPlane
 from relguide_server.atc.asterix_export import as_asterix

@@ -14,7 +14,7 @@ from starlette.requests import HTTPConnection
 
 from relguide.atc.picture import Airspace, Seen
 from relguide.atc.reported import Reported, ReportedAirspace, airspace_on, seen_on
-from relguide.contract.picture_bodies import MAX_AIRCRAFT, OLDEST
+from relguide.contract.traffic_bodies import MAX_AIRCRAFT, OLDEST
 from relguide.planning.frames import LocalPlane
 from relguide.units import Second
 

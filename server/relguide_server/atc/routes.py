@@ -98,7 +98,7 @@ async def ask_clearance(
     except ContractError as error:
         raise refusal_of(error) from None
     if dry_run:
-        found = await desk.try_out(
+        found = await desk.automation.try_out(
             asked.manoeuvre, asked.sky, flight_id=asked.flight_id, pursuer=asked.pursuer
         )
         plane = desk.skies.plane(asked.sky)

@@ -8,20 +8,18 @@ from fastapi import APIRouter, Query, Request
 from pydantic import BaseModel
 from starlette.responses import Response
 
+from relguide.contract.airspace_bodies import AirspaceReport, airspace_feature, airspaces_from_body
+from relguide.contract.moments import moment
 from relguide.contract.other_bodies import Ident
-from relguide.contract.picture_bodies import (
+from relguide.contract.refusal import ContractError, parse
+from relguide.contract.traffic_bodies import (
     OLDEST,
-    AirspaceReport,
     TrafficPicture,
     TrafficReport,
     TrafficTaken,
     aircraft_card,
-    airspace_feature,
-    airspaces_from_body,
-    moment,
     reported_from_body,
 )
-from relguide.contract.refusal import ContractError, parse
 from relguide_server.atc.reports import MOST_SOURCES, Reports, ReportsOf, Source
 from relguide_server.http.access import owner_of
 from relguide_server.http.bodies import GEOJSON, JSON, json_answer, parse_json, read_body

@@ -1,35 +1,35 @@
-"""Routes of what is on record: find flights, read, replay, export and remove them."""
+"""Routes of what is on record: find flights, read, replay and remove them."""
 
-from collections.abc import AsyncIterator, Iterator
 from datetime import datetime
 from itertools import tee
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Literal
 
-import orjson
-from fastapi import APIRouter, Depends, Path, Query, Request
+from fastapi import APIRouter, Depends, Query, Request
 from pydantic import AfterValidator, AwareDatetime, BeforeValidator
-from starlette.responses import Response, StreamingResponse
+from starlette.responses import Response
 
-from relguide.contract.bodies import situation_from_body
-from relguide.contract.flown_bodies import FlownSituationBody
-from relguide.contract.messages import FlightStatus, from_wire
-from relguide.contract.places import UNANCHORED, Anchor
+from relguide.contract.document_models import from_wire
+from relguide.contract.messages import FlightStatus
 from relguide.contract.recorder import VERSION
 from relguide.contract.refusal import ContractError, parse
-from relguide.planning.extras import MissingExtra
-from relguide.planning.frames import LocalPlane
 from relguide_server.flights.live_fleet import FleetOf
+from relguide_server.flights.recorded import (
+    READING,
+    RecordedId,
+    anchor_of,
+    expect_no_null,
+    expect_open,
+    find_recorded,
+    not_on_record,
+)
 from relguide_server.flights.routes import status_of
 from relguide_server.http.access import owner_of
 from relguide_server.http.bodies import json_answer, read_object
 from relguide_server.http.errors import Refusal, refusal_of
-from relguide_server.http.etags import has, headers_of, tag_of, tagged_answer
+from relguide_server.http.etags import tagged_answer
 from relguide_server.http.idempotency import IdempotentRoute
 from relguide_server.http.openapi import (
     BODY,
-    NOT_MODIFIED,
-    TAGGED,
-    header_references,
     problem_responses,
     request_body,
     response,
@@ -38,8 +38,6 @@ from relguide_server.http.openapi import (
 )
 from relguide_server.http.proxy import root_of
 from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
-from relguide_server.http.security_headers import VERSION as SOFTWARE
-from relguide_server.records import exports
 from relguide_server.records.bodies import (
     RecordedDocuments,
     RecordedFlightDetails,
@@ -50,55 +48,21 @@ from relguide_server.records.bodies import (
 from relguide_server.records.cursors import place_of
 from relguide_server.records.entries import Outcome, Place, RecordSearch
 from relguide_server.records.recorder import Recorder
-from relguide_server.records.service import RecordsOf, RecordsService
+from relguide_server.records.service import RecordsOf
 from relguide_server.shares.clients import client_of
-
-if TYPE_CHECKING:  # with SQLAlchemy: a service that records nothing does not load it
-    from relguide_server.records.store import Store
 
 MOST = 500
 """Most flights or plans in an answer."""
 MOST_DOCUMENTS = 1000
 """Most documents in an answer."""
-MEDIA = {
-    "jsonl": "application/x-ndjson",
-    "csv": "text/csv",
-    "geojson": "application/geo+json",
-    "czml": "application/json",
-    "parquet": "application/vnd.apache.parquet",
-}
-"""Media types of the forms of an export."""
-
-
-READING = ("not-found", "records-unavailable")
-"""Problems of every route of records."""
-
-
-async def _expect_open(records: RecordsOf) -> None:
-    """Refuse first where nothing is recorded, or cannot be read: routes load what reads records."""
-    records.reading()
 
 
 router = APIRouter(
     prefix="/api/v1/records",
     tags=["records"],
-    dependencies=[KNOWN_PARAMETERS_ONLY, Depends(_expect_open)],
+    dependencies=[KNOWN_PARAMETERS_ONLY, Depends(expect_open)],
     route_class=IdempotentRoute,
 )
-
-
-def _expect_no_null(text: str) -> str:
-    """PostgreSQL refuses texts with a null character, so no record has one."""
-    if "\0" in text:
-        raise ValueError("must not contain a null character.")
-    return text
-
-
-RecordedId = Annotated[
-    str,
-    Path(description="As `GET /records/flights` lists it.", examples=["3f2a9c0d71be"]),
-    AfterValidator(_expect_no_null),
-]
 
 
 def _expect_no_number(text: str) -> str:
@@ -136,7 +100,7 @@ async def list_recorded(
     scenario: Annotated[
         str | None,
         Query(max_length=100, description="Its name; empty: one's own situations."),
-        AfterValidator(lambda name: name and _expect_no_null(name)),
+        AfterValidator(lambda name: name and expect_no_null(name)),
     ] = None,
     outcome: Annotated[Outcome | None, Query(description="What became of it.")] = None,
     limit: Limit = 100,
@@ -200,7 +164,7 @@ async def list_plans(
 )
 async def show_recorded(flight_id: RecordedId, request: Request, records: RecordsOf) -> Response:
     """What was asked, by whom, with which settings; the commands given; and how it went."""
-    return tagged_answer(request, await _find(flight_id, records))
+    return tagged_answer(request, await find_recorded(flight_id, records))
 
 
 @router.get(
@@ -223,7 +187,7 @@ async def list_documents(
     """As the stream sends them, each with its number; of samples one a second of flight."""
     from relguide_server.records import queries
 
-    await _find(flight_id, records)
+    await find_recorded(flight_id, records)
     found = await records.read(lambda s: queries.read_documents(s, flight_id, first, limit))
     following = found[-1][0] + 1 if found else first
     listed = b",".join(b'{"number":%d,"document":%s}' % (n, line.strip()) for n, line in found)
@@ -256,7 +220,7 @@ async def replay_flight(
         wanted = parse(ReplayRequest, await read_object(request))
     except ContractError as error:
         raise refusal_of(error) from None
-    about = await _find(flight_id, records)
+    about = await find_recorded(flight_id, records)
     if about["form"] != VERSION:
         raise Refusal(409, f"It was recorded by relguide {about['version']}, in another form.")
     read, kept = await records.read(lambda s: tee(queries.each_chunk(s, flight_id)))
@@ -273,92 +237,11 @@ async def replay_flight(
         replay=True,
         owner=owner_of(request),
         client=client_of(request.scope),
-        anchor=_anchor(about["request"]),
+        anchor=anchor_of(about["request"]),
         seed=about["seed"],
     )
     headers = {"Location": f"{root_of(request.scope)}/api/v1/flights/{flight.label.id}"}
     return json_answer(status_of(flight, request).model_dump(), 201, headers=headers)
-
-
-@router.get(
-    "/flights/{flight_id}/export",
-    summary="A flight as a file",
-    responses={
-        200: {
-            "description": "The file.",
-            "content": {media: {"schema": {"type": "string"}} for media in MEDIA.values()},
-            "headers": header_references(["Content-Disposition", *TAGGED]),
-        },
-        **NOT_MODIFIED,
-        **problem_responses(*READING, "invalid", "not-installed"),
-    },
-)
-async def export_flight(
-    flight_id: RecordedId,
-    request: Request,
-    records: RecordsOf,
-    form: Annotated[
-        Literal["jsonl", "csv", "geojson", "czml", "parquet"],
-        Query(
-            alias="format",
-            description="`jsonl`: all documents, as `relguide replay` reads them. `csv`, "
-            "`parquet`: samples, a row for each aircraft and second. `geojson`: the tracks. "
-            "`czml`: the aircraft as they move, for Cesium.",
-        ),
-    ] = "jsonl",
-    lat_deg: Annotated[
-        float | None,
-        Query(ge=-90.0, le=90.0, allow_inf_nan=False, description="Where x = y = 0 is, for "
-              "`geojson` and `czml` of a flight whose situation had no latitudes."),
-    ] = None,
-    lon_deg: Annotated[
-        float | None,
-        Query(ge=-180.0, le=180.0, allow_inf_nan=False, description="Longitude of the same."),
-    ] = None,
-) -> Response:  # fmt: skip
-    """What is on record of it now, and when it began, its id, and the version that flew it.
-
-    It has an `ETag` once the flight is over.
-    """
-    from relguide_server.records import queries
-
-    about = await _find(flight_id, records)
-    origin, asked = _origin(about), about["request"]
-    levels = "situation" not in asked or exports.gives_level([asked, about["commands"]])
-    if form not in ("geojson", "czml") and (lat_deg, lon_deg) != (None, None):
-        raise Refusal(422, f"lat_deg and lon_deg have no meaning for {form}: leave them out.")
-    headers = {"Content-Disposition": f'attachment; filename="flight-{about["id"]}.{form}"'}
-    if about["outcome"] != "flying":  # nothing of it changes any more
-        tag = tag_of(orjson.dumps([about, form, lat_deg, lon_deg, SOFTWARE]))
-        headers |= headers_of(tag)
-        if has(request.headers, tag):
-            return Response(status_code=304, headers=headers)
-    match form:
-        case "jsonl" | "csv":
-            lines = _parts(records, origin, about["form"], form, levels=levels)
-            return StreamingResponse(lines, media_type=MEDIA[form], headers=headers)
-        case "geojson":
-            plane = _plane(about["request"], lat_deg, lon_deg)
-            body = await records.read(
-                lambda s: exports.as_geojson(
-                    origin, plane, queries.each_chunk(s, flight_id), levels=levels
-                )
-            )
-        case "czml":
-            plane, title = _plane(about["request"], lat_deg, lon_deg), about["title"]
-            body = await records.read(
-                lambda s: exports.as_czml(origin, title, plane, queries.each_chunk(s, flight_id))
-            )
-        case "parquet":
-            try:
-                body = await records.read(
-                    lambda s: exports.as_parquet(
-                        origin, queries.each_chunk(s, flight_id), levels=levels
-                    )
-                )
-            except MissingExtra as error:
-                raise Refusal(501, str(error)) from None
-    return Response(body, media_type=MEDIA[form], headers=headers)
 
 
 @router.delete(
@@ -376,7 +259,7 @@ async def remove_recorded(flight_id: RecordedId, records: RecordsOf) -> Response
 
     match await records.read(lambda s: queries.remove_flight(s, flight_id)):
         case None:
-            raise _unknown(flight_id)
+            raise not_on_record(flight_id)
         case "flying":
             raise Refusal(409, "It is in the air: end it first (DELETE /api/v1/flights/…).")
     return Response(status_code=204)
@@ -388,64 +271,3 @@ def _place_of(cursor: str | None) -> Place | None:
         return None if cursor is None else place_of(cursor)
     except ValueError as error:
         raise refusal_of(ContractError([("cursor", str(error))])) from None
-
-
-async def _find(flight_id: str, records: RecordsService) -> dict[str, Any]:
-    from relguide_server.records import queries
-
-    found = await records.read(lambda s: queries.read_flight(s, flight_id))
-    if found is None:
-        raise _unknown(flight_id)
-    return found
-
-
-def _unknown(flight_id: str) -> Refusal:
-    return Refusal(
-        404,
-        f"There is no flight {flight_id[:100]!r} on record. GET /api/v1/records/flights lists all.",
-    )
-
-
-def _origin(about: dict[str, Any]) -> exports.Origin:
-    return exports.Origin(
-        flight_id=about["id"], started_at=about["started_at"], relguide_version=about["version"]
-    )
-
-
-async def _parts(
-    records: RecordsService, origin: exports.Origin, form: int, kind: str, *, levels: bool = True
-) -> AsyncIterator[bytes]:
-    """A file, a chunk at a time."""
-    from relguide_server.records import queries
-
-    def begin(store: "Store") -> Iterator[bytes]:
-        chunks = queries.each_chunk(store, origin.flight_id)
-        if kind == "csv":
-            return exports.as_csv(origin, chunks, levels=levels)
-        return exports.as_recording(origin, form, chunks)
-
-    parts = await records.read(begin)
-    while (part := await records.read(lambda _: next(parts, None))) is not None:
-        yield part
-
-
-def _anchor(request: dict[str, Any]) -> Anchor:
-    if "situation" not in request:
-        return UNANCHORED
-    return situation_from_body(FlownSituationBody.model_validate(request["situation"]))[1]
-
-
-def _plane(request: dict[str, Any], lat_deg: float | None, lon_deg: float | None) -> LocalPlane:
-    """How a flight lies on the earth: as its situation says, or as is asked."""
-    anchor = _anchor(request)
-    if isinstance(anchor, LocalPlane):
-        if (lat_deg, lon_deg) != (None, None):
-            raise Refusal(
-                422, "This flight has latitudes of its own: leave lat_deg and lon_deg out."
-            )
-        return anchor
-    if lat_deg is None or lon_deg is None:
-        raise Refusal(
-            422, "This flight has no latitudes: say by lat_deg and lon_deg where its x = y = 0 is."
-        )
-    return LocalPlane(lat_deg=lat_deg, lon_deg=lon_deg)

@@ -37,7 +37,7 @@ def guide(request: Request) -> Response:
 @router.get("/guide/{name:path}")
 def guide_file(request: Request, name: str) -> Response:
     """A page of the guide, or what it shows."""
-    folder = next((one for one in GUIDE_FOLDERS if (one / "index.html").is_file()), None)
+    folder = built_guide()
     if folder is None:
         raise Refusal(404, "The guide has not been built: run make guide in the source tree.")
     path = _found(folder.resolve(), name)
@@ -47,6 +47,11 @@ def guide_file(request: Request, name: str) -> Response:
         return RedirectResponse(f"{root_of(request.scope)}/guide/{name}/")
     file, policy = _read(path, path.stat().st_mtime_ns)
     return answer(file, request.headers, more={"Content-Security-Policy": policy})
+
+
+def built_guide() -> Path | None:
+    """The folder of the guide; `None` while none is built."""
+    return next((one for one in GUIDE_FOLDERS if (one / "index.html").is_file()), None)
 
 
 def _found(folder: Path, name: str) -> Path | None:

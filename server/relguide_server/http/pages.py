@@ -18,6 +18,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from relguide_server.http.built_files import BuiltFile, answer, read
 from relguide_server.http.errors import Refusal
+from relguide_server.http.guide import built_guide
 from relguide_server.http.proxy import path_of, root_of
 
 PACKAGE = Path(__file__).parents[1]
@@ -25,6 +26,8 @@ PAGE_FOLDERS = (PACKAGE / "page", PACKAGE.parents[1] / "web" / "dist")
 """Where the built page is: in the package when installed, in the source tree otherwise."""
 PAGES = {"/": "/index.html", "/atc": "/atc.html"}
 """The cockpit and the controller's page, by their addresses."""
+HELP = {"Link": '<guide/>; rel="help"'}
+"""Said with a page while the guide is built, so that the page links to it."""
 
 SCRIPT = re.compile(rb"<script>(.*?)</script>", re.DOTALL)
 DOCS_CSP = (
@@ -65,7 +68,8 @@ class Page:
         if path == "/atc/":  # what the page names is beside it, not below it
             await RedirectResponse(f"{root_of(scope)}/atc")(scope, receive, send)
         elif found is not None:
-            await answer(found, Headers(scope=scope))(scope, receive, send)
+            more = HELP if path in PAGES and built_guide() is not None else {}
+            await answer(found, Headers(scope=scope), more=more)(scope, receive, send)
         elif path in PAGES:
             folders = escape(", ".join(map(str, self.folders)))
             await HTMLResponse(NOT_BUILT.format(folders=folders), 503)(scope, receive, send)

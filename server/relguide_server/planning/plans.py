@@ -12,7 +12,8 @@ from starlette.responses import Response, StreamingResponse
 from relguide.contract.answers import INCLUDABLE, Form, read_include
 from relguide.contract.bodies import NamedSituationBody, SituationBody
 from relguide.contract.bulk import refused_line
-from relguide.contract.messages import PlanAnswer, PlannerComparison, model_of
+from relguide.contract.document_models import PlanAnswer, model_of
+from relguide.contract.messages import PlannerComparison
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
 from relguide_server.http.bodies import (
     GEOJSON,

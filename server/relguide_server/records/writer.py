@@ -85,7 +85,6 @@ class Writer:
         self._backoff = RETRY
         self._census_at = 0.0
         self._beats: dict[str, int] | None = None
-        self._swept = False
         self._thread: threading.Thread | None = None
 
     def start(self) -> None:

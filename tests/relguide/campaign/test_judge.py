@@ -6,7 +6,7 @@ import pytest
 
 from relguide.campaign.families import draw
 from relguide.campaign.judge import fly_case, row_of
-from relguide.flying.documents import Alert, FlightEnded, ForecastChanged, Sample, Unable
+from relguide.flying.documents import Alert, Document, FlightEnded, ForecastChanged, Sample, Unable
 from relguide.flying.flight import fly
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.orders import SetEngagement
@@ -196,3 +196,22 @@ def test_a_crew_engages_and_its_times_count_from_there() -> None:
     assert engaged.join_over_plan is not None
     assert row.join_over_plan == pytest.approx(engaged.join_over_plan, abs=0.05)
     assert fly_case(replace(draw("declared", 4), crew=crew[:1])).joined is False
+
+
+@pytest.mark.slow
+def test_who_flies_on_until_the_plane_ends_was_unable_for_what_made_it_fly_on() -> None:
+    case = draw("follow", 0)
+    case = replace(
+        case, scenario=replace(case.scenario, duration_limit=20.0, after_joining=100.0), orders=()
+    )
+    *before, last = fly(case.scenario, plan, sample_period=1.0)
+    assert isinstance(last, FlightEnded)
+    end = replace(last, reason="plane_left", results=(replace(last.results[0], joined=False),))
+    edge = Unable(t=end.t, ident="PURSUER", reason="geometry", message="")
+    slow = replace(edge, t=end.t - 10.0, reason="speed")
+
+    def why(*added: Document) -> str:
+        return row_of(case, (*before, *added, end), 1.0).why_not_joined
+
+    assert why(slow, edge) == "unable: speed"
+    assert why(edge) == "unable: geometry"

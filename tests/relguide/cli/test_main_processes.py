@@ -101,8 +101,9 @@ def test_a_plan_loads_nothing_of_flights_and_learning() -> None:
         "import sys, relguide.__main__ as m\n"
         "m.main(['plan', '-'])\n"
         "heavy = ('torch', 'distributed', 'pyarrow', 'pyproj', 'rich', 'relguide.maps',\n"
-        "    'relguide.flying.guidance', 'relguide.flying.world', 'relguide.contract.messages',\n"
-        "    'relguide.planning.alternatives', 'relguide.planning.optimality')\n"
+        "    'relguide.flying.guidance', 'relguide.flying.world',\n"
+        "    'relguide.contract.document_models', 'relguide.planning.alternatives',\n"
+        "    'relguide.planning.optimality')\n"
         "print('HEAVY', *(name for name in heavy if name in sys.modules))"
     )
     done = subprocess.run(

@@ -10,7 +10,7 @@ from pydantic import TypeAdapter
 from relguide import LEFT, RIGHT, Arc, NoPlan, Situation, check, plan
 from relguide.contract.answers import answer, read_include
 from relguide.contract.bodies import situation_from_json
-from relguide.contract.messages import PlanAnswer, plan_from_wire
+from relguide.contract.document_models import PlanAnswer, plan_from_wire
 from relguide.flying.plan_documents import NoPlanCard
 from relguide.planning.outcome import Plan
 from relguide.units import DEG

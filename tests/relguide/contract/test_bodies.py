@@ -14,7 +14,7 @@ from pyproj import Geod
 from relguide import LEFT, RIGHT, FlyStraight, TurnTo, plan
 from relguide.contract.answers import answer
 from relguide.contract.bodies import plan_to_wire, situation_from_json
-from relguide.contract.messages import PlanAnswer
+from relguide.contract.document_models import PlanAnswer
 from relguide.contract.places import Unanchored
 from relguide.contract.refusal import ContractError
 from relguide.flying.cards import plan_card

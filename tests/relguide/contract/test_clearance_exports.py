@@ -20,8 +20,8 @@ from relguide.atc.documents import (
     ValidationCard,
 )
 from relguide.contract.clearance_exports import COLUMNS, export_clearance, plane_of
-from relguide.contract.messages import card_from_wire
-from relguide.contract.picture_bodies import moment, utc
+from relguide.contract.document_models import card_from_wire
+from relguide.contract.moments import moment, utc
 from relguide.contract.wire import placed_to_wire
 from relguide.planning.frames import LocalPlane
 

@@ -6,11 +6,7 @@ import pytest
 from pydantic import TypeAdapter
 
 from relguide.contract.commands import Command
-from relguide.contract.messages import (
-    FlightRequest,
-    ScenarioFlightRequest,
-    SituationFlightRequest,
-)
+from relguide.contract.messages import FlightRequest, ScenarioFlightRequest, SituationFlightRequest
 from tests.bodies import BODY
 
 

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 
-from relguide.contract.messages import from_wire
+from relguide.contract.document_models import from_wire
 from relguide.contract.orders import (
     MAX_LINE,
     FlownAgain,

@@ -14,7 +14,7 @@ from relguide import LEFT, Cell, ChangeLevel, Disc, FlyStraight, Polygon, Traffi
 from relguide.client.bodies import body_of
 from relguide.contract.answers import answer
 from relguide.contract.bodies import situation_from_json
-from relguide.contract.messages import plan_from_wire
+from relguide.contract.document_models import plan_from_wire
 from relguide.contract.refusal import ContractError
 from relguide.flying.plan_documents import PlanCard
 from relguide.learn.planners import PLANNERS, make_planner

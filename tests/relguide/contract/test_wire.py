@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from relguide.contract.messages import Tick, from_wire
+from relguide.contract.document_models import from_wire
+from relguide.contract.messages import Tick
 from relguide.contract.refusal import ContractError, parse
 from relguide.contract.wire import dumps, tick, to_wire
 from relguide.flying.aircraft_documents import AircraftSample, GuidanceSample, HeadingReference

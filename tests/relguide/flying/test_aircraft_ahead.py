@@ -5,7 +5,7 @@ from math import hypot
 
 import pytest
 
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.documents import Document, FlightEnded, LeaderRoute, Sample
 from relguide.flying.orders import Command, LeaderSpeed, SetEngagement
 from relguide.flying.queues import queue_up

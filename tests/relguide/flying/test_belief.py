@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from relguide.flying.air import Air
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.belief import ROOM, SPARE, Belief, FlownTrack, intent_after
 from relguide.flying.fleet import Fleet
+from relguide.flying.knowledge import belief_of
 from relguide.flying.perception import CERTAIN, Perceived, Spread
 from relguide.flying.pursuit import begin_pursuit
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, World
@@ -54,7 +55,7 @@ def leader_after(seconds: int, *, known: bool = True, pilot: Pilot | None = None
     for second in range(seconds):
         fleet.fly_second(float(second))
         track.add(fleet.body(1), fleet.drift(1), float(second + 1))
-    return fleet.belief(0, 1, track, float(seconds), known)
+    return belief_of(fleet, 0, 1, track, float(seconds), known)
 
 
 def test_a_known_intent_is_what_is_left_of_it() -> None:
@@ -157,7 +158,7 @@ def test_what_is_perceived_is_believed_of_the_leader_and_the_air() -> None:
     fleet = Fleet(world(), 0.05)
     track = begin_pursuit(fleet.world, fleet, fleet.world.links[0]).track
     seen = Perceived(level(300.0, 40.0, 88.0, tas=203.0), Drift(3.0, 4.0), Spread(60.0, 2.0), 1.5)
-    belief = fleet.belief(0, 1, track, 0.0, True, seen=seen)
+    belief = belief_of(fleet, 0, 1, track, 0.0, True, seen=seen)
     assert belief.own == fleet.body(0)  # where it is itself is known
     assert (belief.leader, belief.leader_tas) == (seen.leader, 203.0)
     assert (belief.wind, belief.drift) == (Wind(east=3.0, north=4.0), seen.wind)

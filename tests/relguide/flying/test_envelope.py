@@ -7,7 +7,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from relguide.flying.air import STANDARD_AIR, Air
-from relguide.flying.airframe import airframe, known_airframes
+from relguide.flying.airframe_files import airframe, known_airframes
 from relguide.flying.envelope import (
     FL310,
     SLOW_MARGIN,

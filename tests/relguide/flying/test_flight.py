@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from relguide.flying.air import STANDARD_AIR
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.documents import (
     Alert,
     Document,

@@ -5,7 +5,7 @@ from math import pi
 
 import pytest
 
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.documents import Document, EngagementChanged, LeaderChanged, Sample
 from relguide.flying.orders import (
     Command,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from relguide.flying.air import Air
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.fleet import Fleet
 from relguide.flying.perception import AHEAD, CERTAIN, LISTENED, SURE, Perception, Spread
 from relguide.flying.pursuit import Pursuit, begin_pursuit, keep_margin

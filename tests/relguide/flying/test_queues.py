@@ -7,7 +7,7 @@ from math import hypot
 import numpy as np
 import pytest
 
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.documents import Document, FlightEnded, Sample
 from relguide.flying.orders import Command, LeaderHeading, LeaderSpeed
 from relguide.flying.queues import behind_head, queue_up, soonest_first

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from relguide.contract.wire import to_wire
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.documents import (
     Alert,
     Document,

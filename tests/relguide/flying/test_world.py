@@ -6,11 +6,13 @@ from math import hypot, pi
 import numpy as np
 import pytest
 
+from relguide.flying.abilities import limits_of
 from relguide.flying.air import Air
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.documents import FlightEnded, FlightStarted, Sample, Unable
-from relguide.flying.fleet import OFF_HEADING, OFF_INTENT, Fleet, limits_of
+from relguide.flying.fleet import Fleet
 from relguide.flying.flight import fly
+from relguide.flying.knowledge import OFF_HEADING, OFF_INTENT, as_declared, breaks_its_word
 from relguide.flying.pursuit import begin_pursuit
 from relguide.flying.scenarios import scenario
 from relguide.flying.simulation import simulate
@@ -238,15 +240,15 @@ def test_the_edge_of_the_plane_is_noticed_before_plans_are_refused_for_it() -> N
 
 def test_a_leader_breaks_its_word_once_it_is_far_from_what_it_declared() -> None:
     fleet = Fleet(World(aircraft=(aircraft("L", pilot=TURNING),), links=()), 0.05)
-    told = fleet.as_declared(0, ())
+    told = as_declared(fleet, 0, ())
     for second in range(80):
         fleet.fly_second(float(second))
         told.fly_second(float(second))
         here, there = fleet.states[0], told.states[0]
         far = hypot(here[0] - there[0], here[1] - there[1]) > OFF_INTENT
-        assert fleet.breaks_its_word(0, told) == (far or abs(here[2] - there[2]) > OFF_HEADING)
-    assert fleet.breaks_its_word(0, told)
-    assert not fleet.breaks_its_word(0, fleet)
+        assert breaks_its_word(fleet, 0, told) == (far or abs(here[2] - there[2]) > OFF_HEADING)
+    assert breaks_its_word(fleet, 0, told)
+    assert not breaks_its_word(fleet, 0, fleet)
 
 
 @pytest.mark.parametrize(

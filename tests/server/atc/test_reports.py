@@ -6,7 +6,7 @@ import pytest
 from relguide_server.atc.reports import MOST_SOURCES, Reports, Source
 
 from relguide.atc.reported import Reported, ReportedAirspace
-from relguide.contract.picture_bodies import MAX_AIRCRAFT, OLDEST
+from relguide.contract.traffic_bodies import MAX_AIRCRAFT, OLDEST
 from relguide.planning.frames import LocalPlane
 
 PLANE = LocalPlane(50.0, 8.0)

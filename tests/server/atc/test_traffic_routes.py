@@ -8,7 +8,8 @@ import pytest
 from relguide_server.atc.reports import MOST_SOURCES, Reports
 from relguide_server.atc.traffic_routes import AIRSPACE_EXAMPLE, TRAFFIC_EXAMPLE
 
-from relguide.contract.picture_bodies import MAX_AIRCRAFT, moment
+from relguide.contract.moments import moment
+from relguide.contract.traffic_bodies import MAX_AIRCRAFT
 from relguide.planning.frames import LocalPlane
 from tests.server.http.test_access import SETTING, TOKENS
 from tests.server.serving import TestClient, ideal_app

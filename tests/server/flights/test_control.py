@@ -33,7 +33,8 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
-from relguide.contract.messages import Tick, from_wire
+from relguide.contract.document_models import from_wire
+from relguide.contract.messages import Tick
 from relguide.contract.protocol import STREAM
 from relguide.contract.refusal import parse
 from relguide.contract.upstream import ControlAnswer

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from relguide_server.http import guide
+from relguide_server.http.pages import Page
 
 from tests.server.serving import TestClient, ideal_app
 
@@ -76,6 +77,20 @@ def test_an_unbuilt_guide_says_what_to_do(
     refused = client.get("/guide/")
     assert refused.status_code == 404
     assert "make guide" in refused.json()["detail"]
+
+
+def test_the_pages_say_whether_there_is_a_guide(
+    client: TestClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A link shown without it would lead nowhere."""
+    page = tmp_path / "page"
+    page.mkdir()
+    (page / "index.html").write_text("<title>cockpit</title>")
+    cockpit = TestClient(Page(ideal_app(), folders=(page,)))
+    assert cockpit.head("/").headers["link"] == '<guide/>; rel="help"'
+    assert "link" not in cockpit.get("/guide/").headers
+    monkeypatch.setattr(guide, "GUIDE_FOLDERS", (tmp_path / "nowhere",))
+    assert "link" not in cockpit.head("/").headers
 
 
 def test_a_page_built_anew_is_served_without_a_restart(client: TestClient, tmp_path: Path) -> None:

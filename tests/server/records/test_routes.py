@@ -15,7 +15,7 @@ import pyarrow.parquet as pq
 import pytest
 import sqlalchemy as sa
 from relguide_server.app import create_app
-from relguide_server.flights.record_routes import _origin, _parts
+from relguide_server.flights.flight_file_routes import _origin, _parts
 from relguide_server.planning.plans import EXAMPLE
 from relguide_server.records.exports import gives_level
 from relguide_server.records.recording import Rows

@@ -1,5 +1,6 @@
 /** The strip on top: skies as tabs, the time, the connection, and what concerns the whole page. */
 
+import { Toggle } from "../toggle";
 import type { Actions } from "./actions";
 import { openTab, type Station } from "./station";
 import { waitingIn } from "./urgency";
@@ -7,6 +8,7 @@ import { timeText } from "./words";
 
 export function Header({ station, actions }: { station: Station; actions: Actions }) {
   const { sound, helpOpen, pairToolOpen, notice, busy } = station;
+  const { value: sky } = station.store.sky;
   return (
     <header class="atc-top">
       <h1>
@@ -16,16 +18,7 @@ export function Header({ station, actions }: { station: Station; actions: Action
       <Tabs station={station} />
       <Clock station={station} />
       <div class="atc-tools">
-        <button
-          type="button"
-          class="quiet"
-          aria-pressed={pairToolOpen.value}
-          onClick={() => {
-            pairToolOpen.value = !pairToolOpen.value;
-          }}
-        >
-          Pair tool
-        </button>
+        <Toggle on={pairToolOpen}>Pair tool</Toggle>
         <button type="button" class="quiet" disabled={busy.value !== ""} onClick={actions.demo}>
           Demo: five requests
         </button>
@@ -45,27 +38,11 @@ export function Header({ station, actions }: { station: Station; actions: Action
             }}
           />
         </label>
-        <button
-          type="button"
-          class="quiet"
-          aria-pressed={sound.value}
-          onClick={() => {
-            sound.value = !sound.value;
-          }}
-        >
-          Sound {sound.value ? "on" : "off"}
-        </button>
-        <button
-          type="button"
-          class="quiet"
-          aria-expanded={helpOpen.value}
-          onClick={() => {
-            helpOpen.value = !helpOpen.value;
-          }}
-        >
+        <Toggle on={sound}>Sound {sound.value ? "on" : "off"}</Toggle>
+        <Toggle on={helpOpen} opens>
           Keys
-        </button>
-        <a href="./">Cockpit</a>
+        </Toggle>
+        <a href={sky.id === "" ? "./" : `./?flight=${sky.id}`}>Cockpit</a>
       </div>
       <p class="atc-notice" role="status">
         {busy.value || notice.value}

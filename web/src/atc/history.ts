@@ -9,7 +9,7 @@ export const MOST = 7200;
 const AT_ONCE = 600;
 
 /** A sky's past. What it holds grows; what is in it never changes. */
-export interface SkyHistory {
+interface SkyHistory {
   readonly id: string;
   /** The sky before the first document that is kept. */
   before: Sky;

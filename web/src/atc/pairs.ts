@@ -23,7 +23,7 @@ export function conflictsOf(sky: Sky): Conflict[] {
 const ORDER = { certain: 0, possible: 1, clear: 2 } as const;
 
 /** Those of the last validation. */
-export function pairsOf(card: ClearanceCard): readonly PairCard[] {
+function pairsOf(card: ClearanceCard): readonly PairCard[] {
   return card.validation[0]?.pairs ?? [];
 }
 
@@ -32,7 +32,7 @@ function afterOf(pair: PairCard, t: number): number {
 }
 
 /** How soon a conflict is: yellow under eight minutes, red under five. */
-export type Soon = "later" | "8 min" | "5 min";
+type Soon = "later" | "8 min" | "5 min";
 
 export function soonOf(after: number): Soon {
   return after < 300 ? "5 min" : after < 480 ? "8 min" : "later";

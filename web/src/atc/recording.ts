@@ -1,5 +1,6 @@
 /** What was received as a file: a line that says what it is, then one document a line. */
 
+import { member, parse } from "../json";
 import type { AtcDocument } from "../wire";
 
 const FORMAT = "relguide-atc";
@@ -81,16 +82,4 @@ function problemOf(found: unknown): string | null {
     if (missing !== undefined) return `the ${name} of ${kind} has no ${missing}`;
   }
   return null;
-}
-
-function member(whole: unknown, name: string): unknown {
-  return typeof whole === "object" && whole !== null ? Reflect.get(whole, name) : undefined;
-}
-
-function parse(line: string): unknown {
-  try {
-    return JSON.parse(line);
-  } catch {
-    return undefined;
-  }
 }

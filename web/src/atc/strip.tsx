@@ -151,9 +151,9 @@ function Validation({ card }: { card: ClearanceCard }) {
     <>
       <h3>Automation advises</h3>
       <p>
-        <span class={`verdict ${tone}`}>{word}</span> {leastText(card)}, of {found.aircraft} others,
-        computed {timeText(card.sky, found.computed_s)} on the picture of{" "}
-        {timeText(card.sky, found.picture_as_of_s)}
+        <span class={`verdict ${tone}`}>{word}</span> {leastText(card)}, of {found.aircraft} other
+        {found.aircraft === 1 ? "" : "s"}, computed {timeText(card.sky, found.computed_s)} on the
+        picture of {timeText(card.sky, found.picture_as_of_s)}
       </p>
       <Findings findings={found.findings} />
     </>

@@ -31,7 +31,7 @@ export function partOf(track: TrackCard, from: number, to: number): Place[] {
 }
 
 /** What an aircraft is known to fly: its own clearance, or the route that a follower was planned on. */
-export function routeOf(sky: Sky, ident: string, first: ClearanceCard): TrackCard | null {
+function routeOf(sky: Sky, ident: string, first: ClearanceCard): TrackCard | null {
   const all = [first, ...sky.clearances.values()];
   const own = all.find((each) => each.aircraft === ident && FLOWN.has(each.state));
   return (own?.route ?? all.find((each) => each.traffic_id === ident)?.leader_route) || null;

@@ -38,7 +38,7 @@ export function timeLeft({ due_s }: ClearanceCard, t: number): number | null {
 }
 
 /** When it came to its present state [s]. */
-export function changedAt({ history }: ClearanceCard): number {
+function changedAt({ history }: ClearanceCard): number {
   return history.at(-1)?.t_s ?? 0;
 }
 

@@ -13,7 +13,7 @@ import type {
 } from "../wire";
 
 /** How a state is named, and how its route is drawn: the pattern carries the state. */
-export interface StateLook {
+interface StateLook {
   readonly word: string;
   readonly colour: Colour;
   /** Dashes and gaps [px]; empty is solid. */

@@ -3,7 +3,7 @@
 import { computed, useComputed, useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { shortName } from "../compare/compared";
-import { Choice, Icon, set } from "../parts";
+import { Choice, Maximise, set } from "../parts";
 import type { Actions, Session } from "../session";
 import { type Planned, shownPlan } from "../store/committed";
 import { formatClock } from "../units";
@@ -54,15 +54,7 @@ export function Charts({ session, actions }: Props) {
           }}
         />
         <Exports session={session} strips={strips} window={window} />
-        <button
-          type="button"
-          class="quiet"
-          aria-pressed={sceneMaximised.value}
-          onClick={set(sceneMaximised, !sceneMaximised.value)}
-        >
-          <Icon name={sceneMaximised.value ? "restore" : "maximise"} />
-          {sceneMaximised.value ? "Restore" : "Maximise"}
-        </button>
+        <Maximise on={sceneMaximised} />
         <button type="button" class="quiet" onClick={set(session.chartsOpen, false)}>
           Close
         </button>

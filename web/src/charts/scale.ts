@@ -51,7 +51,7 @@ export function timesOf(from: number, to: number): number[] {
   return ticksOf(from, to, COUNT, TIMES);
 }
 
-export interface EndLabel {
+interface EndLabel {
   readonly label: string;
   readonly colour: Colour;
   /** Where it stands [px]. */

@@ -10,7 +10,7 @@ import { formatHeading, KT, NM, wrap180 } from "../units";
 import { type Ahead, plannedBank, plannedHeading } from "./ahead";
 
 /** Values at the strip's times; null where there is none. */
-export type Values = readonly (number | null)[];
+type Values = readonly (number | null)[];
 
 export interface Line {
   readonly label: string;

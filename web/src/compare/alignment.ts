@@ -19,7 +19,7 @@ export function alignment(first: History, other: History, how: Alignment): numbe
 }
 
 /** When guidance was engaged first [s]. */
-export function engagedAt({ events }: History): number | null {
+function engagedAt({ events }: History): number | null {
   const found = events.find(
     (each) =>
       (each.kind === "engagement_changed" && each.engagement === "engaged") ||

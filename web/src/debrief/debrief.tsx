@@ -4,7 +4,7 @@ import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { lessonOf } from "../lessons/lessons";
 import { Verdict } from "../lessons/verdict";
-import { Icon, set } from "../parts";
+import { Maximise } from "../parts";
 import type { Actions, Session } from "../session";
 import { formatClock } from "../units";
 import { byHandOf } from "./by-hand";
@@ -38,15 +38,7 @@ export function Debrief({ session, actions }: Props) {
         <h2 id="panel-debrief">
           Debrief{isLive && flown.value?.joined === null ? ": so far" : ""}
         </h2>
-        <button
-          type="button"
-          class="quiet"
-          aria-pressed={sceneMaximised.value}
-          onClick={set(sceneMaximised, !sceneMaximised.value)}
-        >
-          <Icon name={sceneMaximised.value ? "restore" : "maximise"} />
-          {sceneMaximised.value ? "Restore" : "Maximise"}
-        </button>
+        <Maximise on={sceneMaximised} />
         <button type="button" class="quiet" onClick={close}>
           Close
         </button>

@@ -15,7 +15,7 @@ import { RANGES } from "../nd/view";
 import { COLOURS, type Palette } from "../picture/palettes";
 import { documentsOf } from "../picture/still";
 import { createFlightStore, READING_PERIOD } from "../store/flight";
-import { createShown } from "../store/picture";
+import { createShown } from "../store/shown";
 import { openStream, type Stream } from "../stream";
 import type { Document } from "../wire";
 

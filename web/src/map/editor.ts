@@ -2,7 +2,7 @@
 
 import { batch, computed, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import { emptyFlight } from "../store/flight";
-import { createShown, type Shown } from "../store/picture";
+import { createShown, type Shown } from "../store/shown";
 import type { Flight } from "../store/types";
 import { NM } from "../units";
 import type { AreaAnswer } from "../wire";
@@ -14,7 +14,7 @@ import { createSteps, type Steps, takeStep } from "./undo";
 import type { Answered } from "./what-if";
 
 /** Ranges of the map [NM]: from its middle to its ring. */
-export const MAP_RANGES = [2, 3, 5, 7, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320] as const;
+const MAP_RANGES = [2, 3, 5, 7, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320] as const;
 /** The ring's radius, and half of what is seen [px]. */
 const RING = 250;
 const HALF = 384;
@@ -162,7 +162,7 @@ export function zoom(editor: Editor, step: 1 | -1, about: Place = editor.centre.
   zoomTo(editor, range, about);
 }
 
-export function zoomTo(editor: Editor, range: number, about: Place = editor.centre.value): void {
+function zoomTo(editor: Editor, range: number, about: Place = editor.centre.value): void {
   const { centre } = editor;
   const ratio = range / editor.range.value;
   batch(() => {

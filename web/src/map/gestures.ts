@@ -1,5 +1,6 @@
 /** Fingers, mouse and wheel on the map: a handle is dragged, the ground is moved, two fingers zoom. */
 
+import { listen, spanOf } from "../glass";
 import type { Place, Point, View } from "../nd/view";
 import { edit } from "./editing";
 import { type Editor, pan, zoom } from "./editor";
@@ -43,10 +44,6 @@ export function followGestures(glass: SVGSVGElement, map: Editor, view: View): (
       y_m: middle().y_m - (y - centre.y) / scale,
     };
   };
-  const span = () => {
-    const [a, b] = [...fingers.values()];
-    return a === undefined || b === undefined ? 0 : Math.hypot(a.x - b.x, a.y - b.y);
-  };
 
   /** Of several handles under a finger, the one whose middle is nearest. */
   const nearest = (point: Point): HandleName | null => {
@@ -65,7 +62,7 @@ export function followGestures(glass: SVGSVGElement, map: Editor, view: View): (
     glass.setPointerCapture(event.pointerId);
     if (fingers.size === 2) {
       held = null;
-      apart = span();
+      apart = spanOf(fingers);
       return;
     }
     const grip = nearest(point) ?? handleOf(event.target);
@@ -104,12 +101,12 @@ export function followGestures(glass: SVGSVGElement, map: Editor, view: View): (
   };
 
   const pinch = () => {
-    const ratio = span() / Math.max(1, apart);
+    const ratio = spanOf(fingers) / Math.max(1, apart);
     if (ratio < PINCH && ratio > 1 / PINCH) return;
     const [a, b] = [...fingers.values()];
     if (a === undefined || b === undefined) return;
     zoom(map, ratio > 1 ? -1 : 1, placeOf({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 }));
-    apart = span();
+    apart = spanOf(fingers);
   };
 
   const up = (event: PointerEvent) => {
@@ -142,20 +139,14 @@ export function followGestures(glass: SVGSVGElement, map: Editor, view: View): (
     edit(map, () => next, pressed);
   };
 
-  const listeners = [
-    ["pointerdown", down],
-    ["pointermove", move],
-    ["pointerup", up],
-    ["pointercancel", up],
-    ["wheel", turn],
-    ["keydown", press],
-  ] as const;
-  for (const [name, listener] of listeners)
-    glass.addEventListener(name, listener as EventListener, { passive: false });
-  return () => {
-    for (const [name, listener] of listeners)
-      glass.removeEventListener(name, listener as EventListener);
-  };
+  return listen(glass, {
+    pointerdown: down,
+    pointermove: move,
+    pointerup: up,
+    pointercancel: up,
+    wheel: turn,
+    keydown: press,
+  });
 }
 
 function handleOf(target: EventTarget | null): HandleName | null {

@@ -19,6 +19,7 @@ import {
   otherHandles,
   otherPart,
   pointOfOther,
+  towards,
 } from "./other-handles";
 import { type Situation, stepMiles } from "./situation";
 import { beginTurnAt, delayTurn, firstTurn, leadTurnTo, leadTurnTowards } from "./turn-handles";
@@ -47,7 +48,7 @@ export function handlesOf(situation: Situation): readonly HandleName[] {
 }
 
 /** How far before an aircraft the handle of its heading stands [px]. */
-export const STICK = 62;
+const STICK = 62;
 /** The wind's dial: its middle, its radius, and what the rim stands for. */
 export const DIAL = { x: 74, y: 74, radius: 46, most: 100 * KT } as const;
 /** Below this it is calm [m/s]: the middle of the dial. */
@@ -99,10 +100,6 @@ export function handlePoint(
         (DIAL.radius * Math.min(wind.speed_mps, DIAL.most)) / DIAL.most,
       );
   }
-}
-
-function towards({ x, y }: Point, direction: number, length: number): Point {
-  return { x: x + length * Math.sin(direction * DEG), y: y - length * Math.cos(direction * DEG) };
 }
 
 /** The situation with a handle moved to a place; `glass` is the same on the glass [px]. */

@@ -71,7 +71,7 @@ function turn(
 }
 
 /** The slot at t = 0: D back along the leader's final track, had it always been on that. */
-export interface SlotNow {
+interface SlotNow {
   readonly point: PathPoint;
   /** Where the slot would be for D = 0. */
   readonly origin: Vector;

@@ -17,7 +17,7 @@ type Part = (typeof PARTS)[number];
 /** Of the aircraft or cell of that number. */
 export type OtherHandle = `${Part}/${number}`;
 
-export interface OtherPart {
+interface OtherPart {
   readonly part: Part;
   readonly number: number;
 }
@@ -39,6 +39,11 @@ export function otherPart(name: string): OtherPart | null {
     : { part: found, number: Number(number) };
 }
 
+/** The point so far from another, in a direction [deg right of up]. */
+export function towards({ x, y }: Point, direction: number, length: number): Point {
+  return { x: x + length * Math.sin(direction * DEG), y: y - length * Math.cos(direction * DEG) };
+}
+
 export function pointOfOther(
   { part, number }: OtherPart,
   { traffic, cells }: Situation,
@@ -47,19 +52,15 @@ export function pointOfOther(
   const aircraft = traffic[number];
   const cell = cells[number];
   const at = (place: Place) => project(layout, middle, place);
-  const away = ({ x, y }: Point, direction: number, length: number) => ({
-    x: x + length * Math.sin(direction * DEG),
-    y: y - length * Math.cos(direction * DEG),
-  });
   switch (part) {
     case "traffic":
       return at(aircraft ?? middle);
     case "traffic-heading":
-      return away(at(aircraft ?? middle), aircraft?.heading_deg ?? 0, stick);
+      return towards(at(aircraft ?? middle), aircraft?.heading_deg ?? 0, stick);
     case "cell":
       return at(cell ?? middle);
     case "cell-edge":
-      return away(at(cell ?? middle), 90, (cell?.radius_m ?? 0) * layout.scale);
+      return towards(at(cell ?? middle), 90, (cell?.radius_m ?? 0) * layout.scale);
   }
 }
 

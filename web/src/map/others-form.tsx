@@ -13,7 +13,8 @@ import { BOUNDS, type MapCell, type MapTraffic, MOST_OTHERS, type Situation } fr
 export function OthersForm({ map }: { map: Editor }) {
   const { traffic, cells } = map.reading.situation.value;
   const answer = map.reading.answered.value?.answer;
-  const kept = answer?.status === "planned" ? (answer.separation.others ?? []) : [];
+  const others = answer?.status === "planned" ? (answer.separation.others ?? []) : [];
+  const keptOf = (ident: string) => others.find((each) => each.ident === ident);
   const isFull = traffic.length + cells.length >= MOST_OTHERS;
   const add = (change: typeof addTraffic) => edit(map, (now) => change(now, map.centre.peek()));
   return (
@@ -35,7 +36,7 @@ export function OthersForm({ map }: { map: Editor }) {
           map={map}
           number={number}
           traffic={each}
-          kept={kept.find(({ ident }) => ident === each.ident)}
+          kept={keptOf(each.ident)}
         />
       ))}
       {cells.map((each, number) => (
@@ -44,7 +45,7 @@ export function OthersForm({ map }: { map: Editor }) {
           map={map}
           number={number}
           cell={each}
-          kept={kept.find(({ ident }) => ident === each.ident)}
+          kept={keptOf(each.ident)}
         />
       ))}
     </Panel>

@@ -149,7 +149,7 @@ function NearestMark({ mark, view }: { mark: Mark; view: View }) {
 }
 
 /** Labels have their places by these names. */
-export const NEAREST_IDS = Array.from({ length: MOST_MARKED }, (_, k) => `nearest ${k}`);
+const NEAREST_IDS = Array.from({ length: MOST_MARKED }, (_, k) => `nearest ${k}`);
 
 /** Who, how near and when. */
 export function nearestLabels(map: Editor, view: View): Label[] {

@@ -10,7 +10,7 @@ import type { Situation } from "./situation";
 export type Remedy = NonNullable<NoPlanCard["remedies"]>[number];
 
 /** The situation with a remedy applied. */
-export function applyRemedy(remedy: Remedy): (situation: Situation) => Situation {
+function applyRemedy(remedy: Remedy): (situation: Situation) => Situation {
   switch (remedy.kind) {
     case "slot_distance":
       return (now) => ({ ...now, slot_distance_m: remedy.slot_distance_m });

@@ -2,7 +2,7 @@
 
 import { effect, type Signal, signal } from "@preact/signals";
 import { emptyFlight } from "../store/flight";
-import { createShown, type Shown } from "../store/picture";
+import { createShown, type Shown } from "../store/shown";
 import { type Entry, GALLERY } from "./gallery";
 import { settle } from "./situation";
 import { type Answered, showWhatIf } from "./what-if";

@@ -3,7 +3,7 @@
 import { formatClock, inPageUnits } from "../units";
 import type { Answered } from "./what-if";
 
-export interface TwoTimes {
+interface TwoTimes {
   /** What the time is that stands large. */
   readonly label?: string;
   /** The other one, beside it. */

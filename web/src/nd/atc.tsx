@@ -1,6 +1,6 @@
 import { useComputed } from "@preact/signals";
 import type { Colour } from "../store/colours";
-import type { OrderWord } from "../store/picture";
+import type { OrderWord } from "../store/mode-words";
 import { Cell } from "./cell";
 import { type LayerProps, usePart } from "./layer";
 import { READOUTS } from "./view";

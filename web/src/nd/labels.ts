@@ -9,7 +9,7 @@ import type { Colour } from "../store/colours";
 import { DEG } from "../units";
 import { type Box, overlap, type Point, within } from "./view";
 
-export interface LabelLine {
+interface LabelLine {
   readonly text: string;
   readonly colour: Colour;
 }

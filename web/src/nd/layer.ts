@@ -1,7 +1,8 @@
 /** What every layer is a function of: the picture, its numbers, and the projection. */
 
 import { type ReadonlySignal, useComputed } from "@preact/signals";
-import type { Picture, Shown } from "../store/picture";
+import type { Picture } from "../store/picture";
+import type { Shown } from "../store/shown";
 import type { PathSegment } from "../wire";
 import type { View } from "./view";
 

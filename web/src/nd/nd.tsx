@@ -3,7 +3,7 @@
 import { type Signal, useComputed } from "@preact/signals";
 import type { ComponentType } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
-import type { Shown } from "../store/picture";
+import type { Shown } from "../store/shown";
 import { AirData } from "./air";
 import { OrderStatus } from "./atc";
 import { CapturePoint } from "./capture";

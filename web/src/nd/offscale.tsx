@@ -35,7 +35,7 @@ export function OffScaleLeader({ shown, view }: LayerProps) {
 }
 
 /** Right of the nose [deg], when the leader is off the map. */
-export function offScaleDirection({ shown, view }: LayerProps): number | null {
+function offScaleDirection({ shown, view }: LayerProps): number | null {
   const [{ leader }, pose] = [shown.picture.value, view.pose.value];
   if (leader === null || pose === null || leaderOnMap({ shown, view }) !== null) return null;
   return offNose(pose, bearing(pose, leader));

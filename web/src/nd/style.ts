@@ -48,10 +48,8 @@ export const LINES = {
   leaderMark: { colour: "leader", width: 2, dash: "" },
 } as const satisfies Record<string, Line>;
 
-export type LineName = keyof typeof LINES;
-
 /** The circle of least separation round the leader, and the leader inside it. */
-export interface SeparationLook {
+interface SeparationLook {
   readonly colour: Colour;
   readonly width: number;
   readonly dash: string;

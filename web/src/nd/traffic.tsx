@@ -155,12 +155,12 @@ export function trafficLabels({ shown, view }: LayerProps): Label[] {
 }
 
 /** Ident; distance and ground speed; closest approach if both fly straight on, and when. */
-export function blockOf({ ident, distance, aircraft, approach }: Traffic): string[] {
+function blockOf({ ident, distance, aircraft, approach }: Traffic): string[] {
   const miles = `${formatMiles(distance)} NM ${formatKnots(aircraft.ground_speed_mps)} KT`;
   return [ident, miles, approachText(approach)];
 }
 
-export function approachText(approach: Traffic["approach"]): string {
+function approachText(approach: Traffic["approach"]): string {
   if (approach.in <= 0) return "PARTING";
   return `CPA ${formatMiles(approach.least)} NM ${formatClock(approach.in)}`;
 }

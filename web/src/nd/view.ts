@@ -7,8 +7,10 @@
  */
 
 import { computed, type ReadonlySignal } from "@preact/signals";
-import type { Moved, Shown } from "../store/picture";
+import type { Shown } from "../store/shown";
 import { DEG, NM, wrap180 } from "../units";
+
+type Moved = Shown["moved"]["value"];
 
 export const SIZE = 768;
 export const RANGES = [10, 20, 40, 80, 160, 320] as const;

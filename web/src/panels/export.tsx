@@ -5,7 +5,7 @@ import { useSignal } from "@preact/signals";
 import { EXPORT_FORMS, type ExportForm, readRecord } from "../api";
 import type { PictureView } from "../picture/picture";
 import { pngOf, saveFile, withFont } from "../save";
-import type { Shown } from "../store/picture";
+import type { Shown } from "../store/shown";
 
 export interface ExportProps {
   readonly shown: Shown;

@@ -5,6 +5,7 @@ import { Icon } from "../parts";
 import type { Session } from "../session";
 import { clockShown } from "../store/states";
 import type { Connection } from "../store/types";
+import { Toggle } from "../toggle";
 
 const CONNECTION_TEXT: Record<Connection, string> = {
   connecting: "Connecting",
@@ -18,45 +19,27 @@ export function Header(props: { session: Session; children?: ComponentChildren }
   return (
     <header class="top">
       <h1>
-        <img src="/favicon.svg" alt="" width="26" height="26" />
+        <img src="./favicon.svg" alt="" width="26" height="26" />
         <span class="word">relguide</span>
       </h1>
       <div class="top-middle">{props.children}</div>
       <SimClock session={props.session} />
       <ConnectionState session={props.session} />
-      <button
-        type="button"
-        class="quiet"
-        aria-expanded={recordsOpen.value}
-        onClick={() => {
-          recordsOpen.value = !recordsOpen.value;
-        }}
-      >
+      <a href="atc" aria-label="ATC: the controller's page">
+        ATC
+      </a>
+      <Toggle on={recordsOpen} opens>
         <Icon name="records" />
         <span class="word">Records</span>
-      </button>
-      <button
-        type="button"
-        class="quiet"
-        aria-pressed={sound.value}
-        onClick={() => {
-          sound.value = !sound.value;
-        }}
-      >
+      </Toggle>
+      <Toggle on={sound}>
         <Icon name={sound.value ? "sound" : "silence"} />
         <span class="word">Sound</span>
-      </button>
-      <button
-        type="button"
-        class="quiet"
-        aria-expanded={helpOpen.value}
-        onClick={() => {
-          helpOpen.value = !helpOpen.value;
-        }}
-      >
+      </Toggle>
+      <Toggle on={helpOpen} opens>
         <Icon name="help" />
         <span class="word">Help</span>
-      </button>
+      </Toggle>
     </header>
   );
 }

@@ -1,6 +1,7 @@
 /** The keys, and how to read the picture. */
 
-import type { Signal } from "@preact/signals";
+import { type Signal, useSignal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
 import { LessonList } from "../lessons/list";
 import { set, useFocus } from "../parts";
 import type { Actions, Session } from "../session";
@@ -94,13 +95,32 @@ function HelpText(props: Props) {
         The address of this page names the flight: all who open it see the same.
       </p>
       <p>
-        <a href="guide/">The guide</a> · <a href="docs">the service's interface</a> · version{" "}
-        {__VERSION__}
+        <GuideLink />
+        <a href="docs">the service's interface</a> · version {__VERSION__}
       </p>
       <button type="button" onClick={set(helpOpen, false)}>
         Close
       </button>
     </div>
+  );
+}
+
+/** The guide, where the service has one: it says so with the page. */
+function GuideLink() {
+  const isThere = useSignal(false);
+  useEffect(() => {
+    const ask = async () => {
+      const { headers } = await fetch("./", { method: "HEAD" });
+      isThere.value = headers.get("link")?.includes('rel="help"') ?? false;
+    };
+    ask().catch(() => undefined); // nobody answers: no link then
+  }, [isThere]);
+  return (
+    isThere.value && (
+      <>
+        <a href="guide/">The guide</a> ·{" "}
+      </>
+    )
   );
 }
 

@@ -44,36 +44,20 @@ function RecordList({ session, actions }: Props) {
       ref={dialog}
     >
       <h2 id="records-title">Look at a flight again</h2>
-      <p>
-        <label class="file">
-          Open a recording (.jsonl, .jsonl.gz), or drag it onto the page:{" "}
-          <input
-            type="file"
-            accept=".jsonl,.gz,.json"
-            onChange={(event) => {
-              const file = event.currentTarget.files?.[0];
-              if (file === undefined) return;
-              close();
-              actions.openFile(file);
-            }}
-          />
-        </label>
-      </p>
-      <p>
-        <label class="file">
-          Or show one beside the flight that is shown:{" "}
-          <input
-            type="file"
-            accept=".jsonl,.gz,.json"
-            onChange={(event) => {
-              const file = event.currentTarget.files?.[0];
-              if (file === undefined) return;
-              close();
-              actions.compareWith(file);
-            }}
-          />
-        </label>
-      </p>
+      <FileField
+        label="Open a recording (.jsonl, .jsonl.gz), or drag it onto the page:"
+        take={(file) => {
+          close();
+          actions.openFile(file);
+        }}
+      />
+      <FileField
+        label="Or show one beside the flight that is shown:"
+        take={(file) => {
+          close();
+          actions.compareWith(file);
+        }}
+      />
       <label class="search">
         Search{" "}
         <input
@@ -116,6 +100,24 @@ function RecordList({ session, actions }: Props) {
         Close
       </button>
     </div>
+  );
+}
+
+function FileField({ label, take }: { label: string; take(file: File): void }) {
+  return (
+    <p>
+      <label class="file">
+        {label}{" "}
+        <input
+          type="file"
+          accept=".jsonl,.gz,.json"
+          onChange={(event) => {
+            const file = event.currentTarget.files?.[0];
+            if (file !== undefined) take(file);
+          }}
+        />
+      </label>
+    </p>
   );
 }
 

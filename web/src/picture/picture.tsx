@@ -7,7 +7,7 @@ import { signal } from "@preact/signals";
 import { renderToString } from "preact-render-to-string";
 import { fittingRange } from "../nd/range";
 import { createView, type DisplayMode, RANGES } from "../nd/view";
-import type { Shown } from "../store/picture";
+import type { Shown } from "../store/shown";
 import { formatClock } from "../units";
 import { Drawing } from "./drawing";
 import { inlined } from "./inlined";
@@ -15,7 +15,7 @@ import { COLOURS, type PaletteName } from "./palettes";
 import { documentsOf, shownAt } from "./still";
 
 /** The range of the map [NM], or the smallest that has all in sight that belongs there. */
-export type RangeChoice = (typeof RANGES)[number] | "auto";
+type RangeChoice = (typeof RANGES)[number] | "auto";
 
 export interface PictureView {
   readonly mode: Exclude<DisplayMode, "PLAN">;

@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import { emptyFlight } from "../store/flight";
 import { createHistory, type History, momentAt } from "../store/history";
-import { createShown, type Shown } from "../store/picture";
+import { createShown, type Shown } from "../store/shown";
 import type { Document } from "../wire";
 
 /**
@@ -26,7 +26,7 @@ export function shownAt(documents: readonly Document[], t: number): Shown {
 }
 
 /** The same of a flight whose documents are known already. */
-export function shownOf(history: History, t: number): Shown {
+function shownOf(history: History, t: number): Shown {
   const moment = signal(momentAt(history, t));
   return createShown({ ...emptyFlight(), moment, read: moment });
 }

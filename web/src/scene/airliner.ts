@@ -8,7 +8,7 @@ import { ALTITUDE_SCALE, type High } from "./camera";
 import type { Glass } from "./glass";
 
 /** One shape: how much light falls on it (0 to 1), and how far away it is [units of 1 km]. */
-export interface Facet {
+interface Facet {
   readonly name: string;
   readonly d: string;
   readonly light: number;

@@ -11,9 +11,9 @@ import {
   useSignalEffect,
 } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { Icon, set } from "../parts";
+import { Icon, Maximise, set } from "../parts";
 import type { Actions, Session } from "../session";
-import type { Shown } from "../store/picture";
+import type { Shown } from "../store/shown";
 import { SceneBar } from "./bar";
 import {
   type Camera,
@@ -123,17 +123,7 @@ export function Scene({ session, actions }: Props) {
           <Icon name="charts" />
           Charts
         </button>
-        <button
-          type="button"
-          class="quiet"
-          aria-pressed={maximised}
-          onClick={() => {
-            sceneMaximised.value = !maximised;
-          }}
-        >
-          <Icon name={maximised ? "restore" : "maximise"} />
-          {maximised ? "Restore" : "Maximise"}
-        </button>
+        <Maximise on={sceneMaximised} />
       </header>
       {maximised && <SceneBar session={session} actions={actions} />}
       <div class="scene-glass">

@@ -13,7 +13,7 @@ import { LabelSheet } from "../nd/labelled";
 import { type Label, type Placement, placeLabels } from "../nd/labels";
 import { ink } from "../nd/style";
 import { NOTICE_COLOUR } from "../store/notices";
-import type { Shown } from "../store/picture";
+import type { Shown } from "../store/shown";
 import { ALTITUDE_SCALE, type Camera, enlargement } from "./camera";
 import type { Size } from "./glass";
 import { aroundTexts, northOf, TEXTS, textsAbout, textsOf, warningOf } from "./texts";

@@ -160,7 +160,7 @@ export function turnsOf(plan: Planned): Turn[] {
 }
 
 /** A turn to come. */
-export interface NextTurn extends Turn {
+interface NextTurn extends Turn {
   /** When it begins [s, flight time]. */
   readonly at: number;
   /** How long until then [s]. */

@@ -48,7 +48,7 @@ const AHEAD_LIMIT = 2;
 /** Data older than this is flagged [s]. */
 export const STALE_AGE = 2;
 /** Data older than this counts as lost [s]. */
-export const LOST_AGE = 5;
+const LOST_AGE = 5;
 
 /** A flight of which nothing is known, at any instant. */
 export const NO_MOMENT: Moment = {

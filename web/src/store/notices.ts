@@ -49,7 +49,7 @@ export const UNABLE: Record<Reason, string> = {
 };
 
 /** … and in those of `Unable`. */
-export const UNABLE_TO: Record<UnableReason, string> = {
+const UNABLE_TO: Record<UnableReason, string> = {
   separation: "SEP",
   speed: "SPEED",
   geometry: "PATH",
@@ -59,7 +59,7 @@ export const UNABLE_TO: Record<UnableReason, string> = {
 };
 
 /** What an alert is about; a loss of separation also says when. */
-export const ALERTED: Record<AlertSubject, string> = {
+const ALERTED: Record<AlertSubject, string> = {
   separation: "SEP",
   spacing: "SPACING NOT KEPT",
   speed: "LDR SPEED",
@@ -75,7 +75,7 @@ const ALERT_NOTICE: Record<Alert["level"], Notice["level"]> = {
 /** The most urgent first. */
 const URGENCY: readonly Notice["level"][] = ["warning", "caution", "prompt", "advice"];
 
-export const REPLANNED: Record<PlanReason, string> = {
+const REPLANNED: Record<PlanReason, string> = {
   engaged: "CONV ACTIVE",
   resumed: "CONV RESUMED",
   better_plan: "SHORTER PATH",
@@ -91,7 +91,7 @@ export const REPLANNED: Record<PlanReason, string> = {
   assignment_changed: "NEW TASK – REPLAN",
 };
 
-export const ENTERED: Record<Mode, string> = {
+const ENTERED: Record<Mode, string> = {
   heading: "RG OFF – HDG",
   converge: "CONV ACTIVE",
   capture: "CAPTURE",

@@ -54,7 +54,7 @@ export interface NextPoint {
 }
 
 /** The turn to come, as the panel says it. */
-export interface NextTurnText {
+interface NextTurnText {
   /** "R 42°". */
   readonly size: string;
   readonly left: string;
@@ -69,7 +69,7 @@ export interface LeastAhead {
 }
 
 /** Least separation from one of the others on the way. */
-export interface OtherAhead {
+interface OtherAhead {
   readonly ident: string;
   readonly miles: string;
   readonly left: string;
@@ -78,7 +78,7 @@ export interface OtherAhead {
 }
 
 /** Own ship against the slot: late when it is behind. */
-export interface Timing {
+interface Timing {
   /** Where the pointer stands: 1 is as late as the scale goes, 0 in the gate. */
   readonly offset: number;
   /** "12 S LATE"; "ON TIME" in the gate. */
@@ -93,7 +93,7 @@ export interface Alarm {
 }
 
 /** Why there is no plan. */
-export interface Trouble {
+interface Trouble {
   /** "Unable" or "No plan"; from the sentence's own moment on some seconds, it says which that was. */
   readonly label: string;
   readonly sentence: string;

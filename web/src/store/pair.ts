@@ -18,7 +18,7 @@ import type {
 } from "../wire";
 
 /** An aircraft beside the two, and the ident of the aircraft that it is to join; "" if there is none. */
-export interface OtherCard extends AircraftCard {
+interface OtherCard extends AircraftCard {
   readonly follows: string;
 }
 

@@ -120,6 +120,16 @@ export interface AgeStyle {
   readonly flag: "" | "LDR DATA" | "LDR DATA LOST" | "MAP NOT AVAIL";
 }
 
+const NOT_AVAILABLE = {
+  map: false,
+  guidance: false,
+  numbers: false,
+  ring: "broken",
+  colour: "alert",
+  showsAge: false,
+  flag: "MAP NOT AVAIL",
+} as const satisfies AgeStyle;
+
 export const AGE: Record<Age, AgeStyle> = {
   fresh: {
     map: true,
@@ -157,22 +167,6 @@ export const AGE: Record<Age, AgeStyle> = {
     showsAge: true,
     flag: "LDR DATA LOST",
   },
-  gone: {
-    map: false,
-    guidance: false,
-    numbers: false,
-    ring: "broken",
-    colour: "alert",
-    showsAge: false,
-    flag: "MAP NOT AVAIL",
-  },
-  none: {
-    map: false,
-    guidance: false,
-    numbers: false,
-    ring: "broken",
-    colour: "alert",
-    showsAge: false,
-    flag: "MAP NOT AVAIL",
-  },
+  gone: NOT_AVAILABLE,
+  none: NOT_AVAILABLE,
 };

@@ -35,7 +35,7 @@ export const SEPARATIONS = ["kept", "predicted", "lost"] as const;
 export type Separation = (typeof SEPARATIONS)[number];
 
 /** Data of the leader older than this are flown no more [s]. */
-export const LEADER_LOST = 10;
+const LEADER_LOST = 10;
 
 export function guidance(flight: Moment): Guidance {
   const sample = flight.sample;

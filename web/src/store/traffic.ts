@@ -9,7 +9,7 @@ import type { Moment } from "./types";
 export type Urgency = "other" | "proximate" | "caution" | "warning";
 
 /** Where two are closest if both fly straight on. */
-export interface Approach {
+interface Approach {
   /** How long until then [s]; 0 where they part already. */
   readonly in: number;
   /** How near [m]. */

@@ -132,7 +132,7 @@ export interface Moment extends Known, Seen {
  * Whose time is shown: `live`, the newest there is; `replay`, any other, `rate` seconds of flight in a
  * second, 0 while it stands.
  */
-export type Source = { readonly kind: "live" } | { readonly kind: "replay"; readonly rate: number };
+type Source = { readonly kind: "live" } | { readonly kind: "replay"; readonly rate: number };
 
 /** The signals of a flight on the page. */
 export interface Flight {

@@ -1,5 +1,6 @@
 /** A recording as text: a line that says what it is, then one document a line. What is wrong is said with its line. */
 
+import { member, parse } from "../json";
 import type { Document } from "../wire";
 
 /** The header of a file that the page can show, as `relguide fly --record` writes it. */
@@ -183,16 +184,4 @@ function contentProblem(value: unknown, path: string): string | null {
     }
   }
   return null;
-}
-
-function member(whole: unknown, name: string): unknown {
-  return typeof whole === "object" && whole !== null ? Reflect.get(whole, name) : undefined;
-}
-
-function parse(line: string): unknown {
-  try {
-    return JSON.parse(line);
-  } catch {
-    return undefined;
-  }
 }

@@ -5,7 +5,7 @@ import { type ComponentType, h, render } from "preact";
 import type { LayerProps } from "../../src/nd/layer";
 import { NavigationDisplay } from "../../src/nd/nd";
 import { createView, type DisplayMode, type View } from "../../src/nd/view";
-import { createShown, type Shown } from "../../src/store/picture";
+import { createShown, type Shown } from "../../src/store/shown";
 import type { Flight } from "../../src/store/types";
 
 export interface Screen {

@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
 import type { PairSample } from "../../src/store/pair";
-import { createShown } from "../../src/store/picture";
+import { createShown } from "../../src/store/shown";
 import type { Flight } from "../../src/store/types";
 import { amend, noPlan, unable } from "../samples";
 import { mountDisplay } from "./draw";

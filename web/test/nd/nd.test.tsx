@@ -3,7 +3,7 @@ import { act } from "preact/test-utils";
 import { expect, test } from "vitest";
 import { emptyFlight } from "../../src/store/flight";
 import type { PairSample } from "../../src/store/pair";
-import { createShown } from "../../src/store/picture";
+import { createShown } from "../../src/store/shown";
 import type { Flight } from "../../src/store/types";
 import { alert, amend, separationLost, unable } from "../samples";
 import { mountDisplay } from "./draw";

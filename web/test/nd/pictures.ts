@@ -2,7 +2,7 @@
 
 import { readFileSync } from "node:fs";
 import { signal } from "@preact/signals";
-import { createShown } from "../../src/store/picture";
+import { createShown } from "../../src/store/shown";
 import { GUIDANCES, type Guidance } from "../../src/store/states";
 import { mountDisplay } from "./draw";
 import { ELEMENT_ROWS } from "./elements";

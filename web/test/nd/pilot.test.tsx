@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import { describe, expect, test } from "vitest";
 import type { PairSample } from "../../src/store/pair";
-import { createShown } from "../../src/store/picture";
+import { createShown } from "../../src/store/shown";
 import { PILOT } from "../../src/store/state-styles";
 import { GUIDANCES, type Guidance, PILOTS, pilot } from "../../src/store/states";
 import type { Flight } from "../../src/store/types";

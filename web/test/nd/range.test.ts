@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { fittingRange, largestLegible, stepToward } from "../../src/nd/range";
 import { layoutOf, onMap, project } from "../../src/nd/view";
-import { createShown } from "../../src/store/picture";
+import { createShown } from "../../src/store/shown";
 import { NM } from "../../src/units";
 import { flightAt, setTime } from "./fixture";
 

@@ -2,7 +2,7 @@
 
 import { signal } from "@preact/signals";
 import { describe, expect, test } from "vitest";
-import { createShown } from "../../src/store/picture";
+import { createShown } from "../../src/store/shown";
 import { GUIDANCES, type Guidance, guidance } from "../../src/store/states";
 import { amend } from "../samples";
 import { mountDisplay } from "./draw";

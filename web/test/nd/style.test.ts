@@ -69,6 +69,8 @@ function importsOf(folder: string): { file: string; path: string }[] {
 /** What is shown, and words for it: no facts of a flight, and nothing that works one out. */
 const STORE = [
   "picture",
+  "mode-words",
+  "shown",
   "numbers",
   "notices",
   "forecast",

@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 import { describe, expect, test } from "vitest";
 import { COLOURS, PALETTES } from "../../src/picture/palettes";
 import { type PictureOptions, pictureOf, pictureOfShown } from "../../src/picture/picture";
-import { createShown } from "../../src/store/picture";
+import { createShown } from "../../src/store/shown";
 import { GUIDANCES } from "../../src/store/states";
 import { flightIn } from "../nd/in-state";
 import { modeChanged, planChanged, STARTED, sample } from "../samples";

@@ -3,7 +3,8 @@ import { createFlightStore } from "../../src/store/flight";
 import { moveSample } from "../../src/store/motion";
 import { noticesOf } from "../../src/store/notices";
 import { numbersOf } from "../../src/store/numbers";
-import { createShown, pictureOf } from "../../src/store/picture";
+import { pictureOf } from "../../src/store/picture";
+import { createShown } from "../../src/store/shown";
 import type { Engagement, EngagementChanged, PlanProposed } from "../../src/wire";
 import {
   aircraft,

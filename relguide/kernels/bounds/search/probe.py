@@ -32,7 +32,7 @@ from relguide.kernels.contact.clear_delay import delay_until_contact
 from relguide.kernels.contact.clear_words import best_word
 from relguide.kernels.contact.constrained_search import ease_to_start, fly_to_delay
 from relguide.kernels.contact.contact import boundary_arc_sense, contact_exists, contact_on, disc_on
-from relguide.kernels.contact.neighbourhoods import no_chains
+from relguide.kernels.contact.kept_chains import no_chains
 from relguide.kernels.contact.nodes import IntArray
 from relguide.kernels.contact.one_contact import Workspace, descend, through_contact, workspace
 from relguide.kernels.contact.passing import words_toward

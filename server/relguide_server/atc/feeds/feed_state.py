@@ -7,7 +7,7 @@ from time import time
 from typing import Literal
 
 from relguide.atc.reported import Reported
-from relguide.contract.picture_bodies import AHEAD, CLIMB, FASTEST, OLDEST
+from relguide.contract.traffic_bodies import AHEAD, CLIMB, FASTEST, OLDEST
 from relguide.planning.aircraft import LONGEST_IDENT
 from relguide.units import Metre, Second
 from relguide_server.atc.reports import Reports, Source

@@ -7,6 +7,7 @@ from relguide.flying.fleet import Fleet
 from relguide.flying.flight import Scenario, world_of
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.settings import DEFAULT, Settings
+from relguide.flying.knowledge import belief_of
 from relguide.flying.pursuit import assignment_of, begin_pursuit
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.kernels.flight.flight_records import Control
@@ -34,7 +35,7 @@ class Watched:
 
     @property
     def belief(self) -> Belief:
-        return self.fleet.belief(0, 1, self.track, self.t, self.link.intent_known)
+        return belief_of(self.fleet, 0, 1, self.track, self.t, self.link.intent_known)
 
     def fly(self, control: Control) -> None:
         self.fleet.control(0, control)

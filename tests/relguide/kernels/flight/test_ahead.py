@@ -13,6 +13,7 @@ from relguide.flying.guidance.commit.proposal import Proposal
 from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.forecast import NO_COURSE
 from relguide.flying.guidance.settings import DEFAULT
+from relguide.flying.knowledge import belief_of
 from relguide.flying.pursuit import assignment_of, begin_pursuit
 from relguide.flying.scenarios import scenario
 from relguide.kernels.base.roots import FloatArray
@@ -61,7 +62,7 @@ def engage(flight: Scenario) -> tuple[Fleet, FlownTrack, Proposal]:
     world = world_of(flight)
     fleet, link = Fleet(world, 1.0 / STEPS), world.links[0]
     track = begin_pursuit(world, fleet, link).track
-    belief = fleet.belief(0, 1, track, 0.0, True)
+    belief = belief_of(fleet, 0, 1, track, 0.0, True)
     found = propose(belief, assignment_of(world, link), None, plan)
     assert isinstance(found, Proposal)
     return fleet, track, found
@@ -79,7 +80,7 @@ def flown_by_seconds(
     for second in range(seconds):
         t = float(second)
         track.add(fleet.body(1), fleet.drift(1), t)
-        belief = fleet.belief(0, 1, track, t, True)
+        belief = belief_of(fleet, 0, 1, track, t, True)
         done = act(
             progress, belief.own, belief.limits, course, track.marks, belief.turn_to_come,
             asked.task, asked.gate, asked.gains, belief.drift, t,
@@ -100,7 +101,7 @@ def fly_compiled(
     seconds: int = SECONDS, after_joining: int = 200,
 ) -> tuple[FloatArray, FloatArray, FloatArray, float]:  # fmt: skip
     asked = assignment_of(fleet.world, fleet.world.links[0])
-    belief = fleet.belief(0, 1, track, 0.0, True)
+    belief = belief_of(fleet, 0, 1, track, 0.0, True)
     return fly_ahead(
         progress, belief.own, belief.limits, course, track.marks, belief.leader,
         belief.leader_limits, belief.program, belief.cursor, belief.held, belief.leader_tas,

@@ -10,7 +10,7 @@ from relguide.kernels.contact.clear_words import pieces_clear
 from relguide.kernels.maps.final_leg import keeps_clear
 from relguide.kernels.maps.release import reaches, release_clears
 from relguide.kernels.words.branches import TO_POINT
-from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths
+from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, straight_delays, turning_delays
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 from relguide.kernels.words.to_point import word_to_point
 from tests.relguide.kernels.maps.test_final_leg import turning
@@ -75,7 +75,8 @@ def test_a_path_that_clears_is_one_of_the_many_families(limit: float) -> None:
         if not reaches(start, alpha * opens, opens, PIECE):
             continue
         found = release_clears(start, scene, PIECE, ROW)
-        n = delay_paths(Pose(x, y, h), alpha, opens, paths)
+        n = straight_delays(Pose(x, y, h), alpha, opens, paths)
+        n = turning_delays(Pose(x, y, h), alpha, opens, paths, n)
         turns = np.count_nonzero(signs[:n, 1:4], axis=1) == 2
         before = (signs[:n, 0] == 0.0) & (amounts[:n, 4] == 0.0) & turns
         behind = (signs[:n, 0] == 0.0) & (amounts[:n, 0] == 0.0) & turns

@@ -10,9 +10,9 @@ from hypothesis import given
 from relguide import FlyStraight, Situation, Wind
 from relguide.learn.tree.nearest import lookup_in, nearest, neighbours
 from relguide.learn.tree.reverse_dp import reverse_tree
-from relguide.learn.tree.tree import regular_of, situation_of
+from relguide.learn.tree.tree import situation_of
 from relguide.planning.regular import RegularTrajectory, trajectory_from_regular
-from tests.relguide.learn.tree.trees import A300, parameters, tree
+from tests.relguide.learn.tree.trees import A300, parameters, regular_of, tree
 from tests.situations import numbers
 
 LOOKUP = lookup_in(tree())

@@ -18,14 +18,13 @@ from relguide.learn.tree.tree import (
     losses,
     nodes_at,
     pairs_of,
-    regular_of,
     situation_of,
     tree_area,
 )
 from relguide.maps.area import exact_times
 from relguide.planning.regular import trajectory_from_regular
 from tests.plans import fly_planned
-from tests.relguide.learn.tree.trees import A300, parameters, tree
+from tests.relguide.learn.tree.trees import A300, parameters, regular_of, tree
 
 COLUMNS = (
     "x", "y", "heading_number", "time", "parent", "length_number", "angle_number", "turn",

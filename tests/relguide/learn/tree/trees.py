@@ -2,9 +2,12 @@
 
 from functools import cache
 
+import numpy as np
+
 from relguide.learn.tree.reverse_dp import reverse_tree
-from relguide.learn.tree.tree import RegularTree, TreeParameters
+from relguide.learn.tree.tree import RegularTree, TreeParameters, pairs_of, regular_from_pairs
 from relguide.maps.area import Encounter
+from relguide.planning.regular import RegularTrajectory
 from relguide.units import DEG
 
 A300 = Encounter(
@@ -36,3 +39,8 @@ def parameters(
 @cache
 def tree(order: int = 3) -> RegularTree:
     return reverse_tree(parameters(order))
+
+
+def regular_of(tree: RegularTree, node: int) -> RegularTrajectory:
+    """The path from a node to the slot in the paper's form."""
+    return regular_from_pairs(pairs_of(tree, np.array([node], np.int32))[0])

@@ -1,5 +1,6 @@
 /** Mouse, wheel and fingers on the map: the ground is moved, two fingers and the wheel zoom, a tap chooses. */
 
+import { listen, spanOf } from "../../glass";
 import type { Point } from "../../nd/view";
 import { type MapView, pan, zoom } from "./view";
 
@@ -21,10 +22,6 @@ export function followGestures(
     const box = glass.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   };
-  const span = () => {
-    const [a, b] = [...fingers.values()];
-    return a === undefined || b === undefined ? 0 : Math.hypot(a.x - b.x, a.y - b.y);
-  };
   const middle = (): Point => {
     const all = [...fingers.values()];
     const mean = (part: (point: Point) => number) =>
@@ -41,14 +38,14 @@ export function followGestures(
   const move = (event: PointerEvent) => {
     const before = fingers.get(event.pointerId);
     if (before === undefined) return;
-    const [apart, from] = [span(), middle()];
+    const [apart, from] = [spanOf(fingers), middle()];
     const point = pointOf(event);
     fingers.set(event.pointerId, point);
     moved += Math.hypot(point.x - before.x, point.y - before.y);
     if (moved < TAP) return;
     const to = middle();
     pan(view, to.x - from.x, to.y - from.y);
-    if (apart > 0) zoom(view, span() / apart, to);
+    if (apart > 0) zoom(view, spanOf(fingers) / apart, to);
   };
   const up = (event: PointerEvent) => {
     if (fingers.delete(event.pointerId) && event.type === "pointerup" && moved < TAP)
@@ -59,17 +56,11 @@ export function followGestures(
     zoom(view, 2 ** (-event.deltaY / DOUBLE), pointOf(event));
   };
 
-  const listeners = [
-    ["pointerdown", down],
-    ["pointermove", move],
-    ["pointerup", up],
-    ["pointercancel", up],
-    ["wheel", turn],
-  ] as const;
-  for (const [name, listener] of listeners)
-    glass.addEventListener(name, listener as EventListener, { passive: false });
-  return () => {
-    for (const [name, listener] of listeners)
-      glass.removeEventListener(name, listener as EventListener);
-  };
+  return listen(glass, {
+    pointerdown: down,
+    pointermove: move,
+    pointerup: up,
+    pointercancel: up,
+    wheel: turn,
+  });
 }

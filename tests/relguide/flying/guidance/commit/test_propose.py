@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from relguide.flying.airframe import airframe
+from relguide.flying.airframe_files import airframe
 from relguide.flying.fleet import Fleet
 from relguide.flying.flight import world_of
 from relguide.flying.guidance.assignment import IN_GATE

@@ -34,7 +34,7 @@ from relguide.kernels.contact.contact import (
 )
 from relguide.kernels.contact.paths_to_contact import paths_to_contact
 from relguide.kernels.separation.clearance import leader_at, piece_at
-from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths
+from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, straight_delays, turning_delays
 from relguide.kernels.words.extremals import (
     MAX_ROWS,
     SIGNS,
@@ -505,7 +505,8 @@ def test_who_is_there_as_the_slot_opens_is_who_a_delay_leads_there() -> None:
         alpha, t_release = rng.uniform(0.4, 0.98), rng.uniform(0.5, 12.0)
         rows = np.empty((MAX_ROWS, 5))
         _, shortest = solve_and_measure(x, y, h, alpha, t_release, rows)
-        found = delay_paths(Pose(x, y, h), alpha, t_release, paths) > 0
+        n = straight_delays(Pose(x, y, h), alpha, t_release, paths)
+        found = turning_delays(Pose(x, y, h), alpha, t_release, paths, n) > 0
         assert found == arrives_at_release(x, y, h, alpha, t_release)
         seen[shortest <= t_release, found] += 1
     assert set(seen) == {(False, False), (True, False), (True, True)}
