@@ -81,8 +81,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--seed",
         metavar="N",
         type=_seed,
-        help="0, the default, flies the type as its data say; others draw its constants by chance; "
-        "a flight that is flown again has the one of its recording",
+        help="0, the default, flies the type as its data say; others draw its constants by chance, "
+        "and those of the pilot model; a flight that is flown again has the one of its recording",
     )
     parser.add_argument(
         "--orders",
@@ -99,7 +99,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--director",
         action="store_true",
-        help="a pilot model flies the pursuer by hand, along the flight director's bars",
+        help="a pilot model flies the pursuer by hand, along the flight director's bars; what it "
+        "adds by chance goes by --seed",
     )
     parser.add_argument(
         "--after-joining",
@@ -143,6 +144,7 @@ def run(chosen: argparse.Namespace) -> int:
     from relguide.contract.flight_summary import failures, figures, summarize
     from relguide.contract.orders import commands_of, expect_flying
     from relguide.contract.recorder import record
+    from relguide.flying.dispersion import disperse_pilot
     from relguide.flying.fans import all_fans, no_fans
     from relguide.flying.flight import fly, world_of
     from relguide.flying.guidance.settings import DEFAULT, load_settings
@@ -164,7 +166,7 @@ def run(chosen: argparse.Namespace) -> int:
     if chosen.winds is not None:
         scenario = _in_winds(scenario, chosen.winds)
     if chosen.director:
-        scenario = replace(scenario, by_hand=PilotModel())
+        scenario = replace(scenario, by_hand=disperse_pilot(PilotModel(), seed))
     expect_flying(orders, script, world_of(scenario))
     if recorded not in ("", scenario.name):
         say(f"{chosen.orders} is a flight of {recorded}, not of {scenario.name}: this is another.")

@@ -16,6 +16,7 @@ from relguide.client.calls import (
     Include,
     IncludeDrawn,
     Invalid,
+    Line,
     Lines,
     PlannerName,
     expect_served,
@@ -27,6 +28,7 @@ from relguide.contract.protocol import STREAM
 from relguide.contract.simulation_bodies import SimulationAnswer
 from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
+from relguide.flying.pilot_model import PilotModel
 from relguide.units import Second
 
 T = TypeVar("T")
@@ -119,10 +121,16 @@ class AsyncClient:
         rate: float = 1.0,
         paused: bool = False,
         seed: int = 0,
-        engagement: Engagement = "engaged",
+        engagement: Engagement | None = None,
+        by_hand: bool | PilotModel = False,
+        orders: Sequence[Line] = (),
+        crew: Sequence[Line] | None = None,
     ) -> "AsyncFlight":
         """As `Client.fly`."""
-        call = calls.fly(what, rate=rate, paused=paused, seed=seed, engagement=engagement)
+        call = calls.fly(
+            what, rate=rate, paused=paused, seed=seed, engagement=engagement, by_hand=by_hand,
+            orders=orders, crew=crew,
+        )  # fmt: skip
         return AsyncFlight(self, (await self.ask(call)).id)
 
     async def records(self, **sought: str | int) -> AsyncIterator[dict[str, Any]]:

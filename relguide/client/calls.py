@@ -14,9 +14,11 @@ from relguide.client.bodies import Asked, body_of
 from relguide.contract.area_bodies import AreaAnswer
 from relguide.contract.document_models import from_wire, knows, plan_from_wire
 from relguide.contract.messages import FlightStatus
+from relguide.contract.pilot_bodies import pilot_to_body
 from relguide.contract.simulation_bodies import SimulationAnswer
 from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
+from relguide.flying.pilot_model import PilotModel
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
 from relguide.planning.situation import Situation
 from relguide.units import Second
@@ -27,6 +29,8 @@ AT_A_TIME = 1000
 """Most situations in one request."""
 Include = Literal["alternatives", "optimality"]
 IncludeDrawn = Literal["alternatives", "optimality", "paths", "flown"]
+Line = Mapping[str, Any]
+"""An order, a member for each field, as a line of `--orders` or `--crew` has it."""
 PlannerName = Literal["exact", "network"]
 
 
@@ -211,11 +215,21 @@ def fly(
     rate: float,
     paused: bool,
     seed: int,
-    engagement: Engagement,
+    engagement: Engagement | None,
+    by_hand: bool | PilotModel,
+    orders: Sequence[Line],
+    crew: Sequence[Line] | None,
 ) -> Call[FlightStatus]:
     """Start a flight of a scenario by its name, or of a situation."""
     first = {"scenario": what} if isinstance(what, str) else {"situation": body_of(what)}
-    body = {**first, "rate": rate, "paused": paused, "seed": seed, "engagement": engagement}
+    wanted = {
+        "engagement": engagement,
+        "by_hand": pilot_to_body(by_hand) if isinstance(by_hand, PilotModel) else by_hand,
+        "orders": [dict(line) for line in orders],
+        "crew": None if crew is None else [dict(line) for line in crew],
+    }
+    body = {**first, "rate": rate, "paused": paused, "seed": seed}
+    body |= {name: value for name, value in wanted.items() if value not in (None, False)}
     return Call(method="POST", path="api/v1/flights", content=orjson.dumps(body), read=_read_status)
 
 

@@ -17,6 +17,7 @@ from relguide.client.calls import (
     Include,
     IncludeDrawn,
     Invalid,
+    Line,
     Lines,
     PlannerName,
     expect_served,
@@ -28,6 +29,7 @@ from relguide.contract.protocol import STREAM
 from relguide.contract.simulation_bodies import SimulationAnswer
 from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
+from relguide.flying.pilot_model import PilotModel
 from relguide.units import Second
 
 T = TypeVar("T")
@@ -152,7 +154,10 @@ class Client:
         rate: float = 1.0,
         paused: bool = False,
         seed: int = 0,
-        engagement: Engagement = "engaged",
+        engagement: Engagement | None = None,
+        by_hand: bool | PilotModel = False,
+        orders: Sequence[Line] = (),
+        crew: Sequence[Line] | None = None,
     ) -> "Flight":
         """Start a flight.
 
@@ -161,9 +166,17 @@ class Client:
             rate: simulated seconds per second.
             paused: whether it waits for the command `play`.
             seed: of its random numbers.
-            engagement: how far guidance is engaged at the start.
+            engagement: how far guidance is engaged at the start; if left out, engaged, and with a
+                crew as its script says.
+            by_hand: whether a pilot model flies along the flight director's bars, and which.
+            orders: what aircraft do at flight times, as `{"t_s": 60, "intent_known": False}`.
+            crew: the script of a crew that reacts, as `{"on": "plan_proposed", "engagement":
+                "armed"}`.
         """
-        call = calls.fly(what, rate=rate, paused=paused, seed=seed, engagement=engagement)
+        call = calls.fly(
+            what, rate=rate, paused=paused, seed=seed, engagement=engagement, by_hand=by_hand,
+            orders=orders, crew=crew,
+        )  # fmt: skip
         return Flight(self, self.ask(call).id)
 
     def records(self, **sought: str | int) -> Iterator[dict[str, Any]]:

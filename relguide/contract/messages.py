@@ -11,11 +11,12 @@ from pydantic import (
     Discriminator,
     Field,
     Tag,
+    field_validator,
     model_validator,
 )
 
 from relguide.contract.commands import Rate
-from relguide.contract.crew_lines import CrewOrderLine
+from relguide.contract.crew_lines import CrewOrderLine, StickOrder
 from relguide.contract.document_models import DocumentModel, model_of, no_default
 from relguide.contract.flown_bodies import FlownSituationBody
 from relguide.contract.intent_bodies import Intent
@@ -29,7 +30,9 @@ from relguide.planning.limits import SPACING
 
 _OF_SNAPSHOTS = Field(default="", json_schema_extra=no_default)
 MAX_ORDERS = 1000
-"""Most orders that a request for a flight has, and most lines of a crew's script."""
+"""Most orders that a request for a flight has beside sticks, and most lines of a crew's script."""
+MAX_STICKS = 36_000
+"""Most sticks that it has: ten a second for an hour."""
 Seed = Annotated[int, Field(ge=0, le=2**32 - 1)]
 """Accepted seeds of a flight's random numbers."""
 SpacingTime = Annotated[float, Field(gt=0.0, le=SPACING.high)]
@@ -98,17 +101,38 @@ class _HowToFly(Strict):
     engagement: Engagement = "engaged"
     """How far guidance is engaged at the start."""
     seed: Seed = 0
-    """0 flies the type as its data say; any other draws its constants, unknown to its guidance."""
+    """0 flies the type as its data say; any other draws its constants, unknown to its guidance, and
+    those of a pilot model that is asked for without any."""
     spacing_time_s: SpacingTime | None = None
     """Time behind the leader to keep once joined; if left out, D is kept."""
     by_hand: ByHand = False
     """Whether a pilot model flies the pursuer by hand, along the flight director's bars; its
     constants, if they are not those that pilots were found to have."""
-    orders: list[OrderLine] = Field(default_factory=list, max_length=MAX_ORDERS)
-    """What aircraft are ordered at flight times, in order of time."""
+    orders: list[OrderLine] = Field(default_factory=list, max_length=MAX_ORDERS + MAX_STICKS)
+    """What aircraft are ordered at flight times, in order of time: at most 36,000 sticks, an hour
+    of flying by hand, and at most 1,000 others."""
     crew: Annotated[list[CrewOrderLine] | None, Field(max_length=MAX_ORDERS)] = None
     """The script of a crew that reacts. Guidance is off at the start, unless `engagement` or the
     first line, an engagement at 0 s, says otherwise."""
+
+    @field_validator("orders", mode="before")
+    @classmethod
+    def _expect_readable(cls, lines: Any) -> Any:
+        most = MAX_ORDERS + MAX_STICKS
+        if isinstance(lines, list) and len(lines) > most:  # before each of them is read
+            raise ValueError(f"must have at most {most:,} entries, not {len(lines):,}.")
+        return lines
+
+    @field_validator("orders")
+    @classmethod
+    def _expect_not_too_many(cls, lines: list[Any]) -> list[Any]:
+        sticks = sum(isinstance(line, StickOrder) for line in lines)
+        if sticks > MAX_STICKS:
+            raise ValueError(f"must have at most {MAX_STICKS:,} sticks, not {sticks:,}.")
+        if len(lines) - sticks > MAX_ORDERS:
+            others = len(lines) - sticks
+            raise ValueError(f"must have at most {MAX_ORDERS:,} beside sticks, not {others:,}.")
+        return lines
 
 
 class ScenarioFlightRequest(_HowToFly):

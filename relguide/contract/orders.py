@@ -12,6 +12,7 @@ A crew's script has the orders of crews only, and they may wait for what is said
 A recording holds all orders that were given in its flight, which is flown again by them.
 """
 
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import IO, Any, NamedTuple, TypeVar
 
@@ -167,11 +168,11 @@ def flown_again(documents: Iterable[Document]) -> FlownAgain:
 
 def commands_of(orders: Sequence[Order]) -> Callable[[Second], Iterable[Command]]:
     """What `fly` polls for commands: each is given once, at the first step at or after its time."""
-    left = list(orders)
+    left = deque(orders)
 
     def due(t: Second) -> Iterable[Command]:
         while left and left[0].t <= t + 1e-9:  # a step's time is a product, and may fall short
-            yield left.pop(0).command
+            yield left.popleft().command
 
     return due
 

@@ -8,6 +8,7 @@ from pydantic import Discriminator, Tag
 
 from relguide.contract.accepted import Accepted
 from relguide.contract.refusal import Strict
+from relguide.flying.dispersion import disperse_pilot
 from relguide.flying.pilot_model import (
     BANDWIDTH,
     DELAY,
@@ -45,10 +46,32 @@ ByHand = Annotated[
 """Whether a pilot model flies by hand, and which."""
 
 
-def pilot_of(wanted: ByHand) -> PilotModel | None:
-    """The pilot model that is asked for; `None` where the autopilot flies."""
+def pilot_to_body(pilot: PilotModel) -> dict[str, float]:
+    """How a pilot model is asked for.
+
+    Raises:
+        ValueError: if it looks ahead, which none that is asked for does.
+    """
+    if pilot.lead != 0.0:
+        raise ValueError(f"lead must be 0 s for a pilot of the service, not {pilot.lead:g} s.")
+    return {
+        "bandwidth_radps": pilot.bandwidth,
+        "delay_s": pilot.delay,
+        "remnant_share": pilot.remnant,
+        "threshold_deg": degrees(pilot.threshold),
+        "reaction_s": pilot.reaction,
+    }
+
+
+def pilot_of(wanted: ByHand, seed: int) -> PilotModel | None:
+    """The pilot model that is asked for; `None` where the autopilot flies.
+
+    Args:
+        wanted: whether one flies, and which; without constants it is drawn as its aircraft is.
+        seed: of the flight.
+    """
     if not isinstance(wanted, PilotBody):
-        return _USUAL if wanted else None
+        return disperse_pilot(_USUAL, seed) if wanted else None
     return PilotModel(
         bandwidth=wanted.bandwidth_radps,
         delay=wanted.delay_s,

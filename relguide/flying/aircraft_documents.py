@@ -37,6 +37,9 @@ class AircraftCard:
     """Its name in all documents of the flight."""
     aircraft_type: str
     max_bank: Radian
+    autopilot_bank: Radian = field(default=0.0, metadata=LEFT_OUT)
+    """Most that its autopilot banks, to stay on a path that turns at the bank above; left out of an
+    aircraft that is not guided, and in older recordings."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -170,6 +173,9 @@ class GuidanceSample:
     """Whether the autopilot flies the pursuer; if not, its crew does by hand."""
     director: bool = field(default=False, metadata=LEFT_OUT)
     """Whether the flight director is on."""
+    least_tas: MetrePerSecond = field(default=0.0, metadata=LEFT_OUT)
+    """The slowest that its aircraft can fly at its level, wings level; left out in older
+    recordings."""
     bars: tuple[Bars, ...] = field(default=(), metadata=LEFT_OUT)
     """Its bars; none while they are out of view: it is off, or guidance is."""
 
@@ -229,7 +235,7 @@ class LinkResult:
     join_time: Second
     """When eq. (7) first held within tolerance; the flight's duration if it never did."""
     planned_time: Second
-    """Time to converge of the plan at engagement; 0 if there was none."""
+    """Time to converge of the plan at engagement, from then on; 0 if there was none."""
     promised: Second
     """Time until joined that the plan at engagement promised, braking included; 0 as above."""
     least_separation: Metre

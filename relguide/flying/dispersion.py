@@ -5,6 +5,7 @@ from math import hypot, pi
 from random import Random
 
 from relguide.flying.airframe import Airframe
+from relguide.flying.pilot_model import PilotModel
 from relguide.planning.aircraft import Leader, Pursuer
 from relguide.planning.intent import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.situation import Situation
@@ -26,6 +27,9 @@ much, beside the others: engines and wings age little, and speed is the differen
 SHARE = 0.1
 """By how much of themselves they do at most; thrust and drag by 3 %."""
 
+PILOTS_SHARE = 0.5
+"""The same of a pilot's: as little is known of them."""
+
 
 def disperse(airframe: Airframe, seed: int, share: float = SHARE) -> Airframe:
     """An aircraft whose constants differ from its type's by chance.
@@ -43,6 +47,22 @@ def disperse(airframe: Airframe, seed: int, share: float = SHARE) -> Airframe:
         for name, part in DISPERSED.items()
     }
     return replace(airframe, **drawn)
+
+
+def disperse_pilot(pilot: PilotModel, seed: int, share: float = PILOTS_SHARE) -> PilotModel:
+    """A pilot whose constants differ from a model's by chance; its lead stays.
+
+    Args:
+        pilot: the model.
+        seed: of the random numbers; 0 gives the model itself.
+        share: each constant is drawn evenly within ± this share of itself.
+    """
+    if seed == 0:
+        return pilot
+    rng = Random(f"pilot {seed}")  # other numbers than its aircraft's
+    names = ("bandwidth", "delay", "remnant", "threshold", "reaction")
+    drawn = {name: getattr(pilot, name) * (1.0 + rng.uniform(-share, share)) for name in names}
+    return replace(pilot, **drawn)
 
 
 def random_situation(seed: int) -> Situation:

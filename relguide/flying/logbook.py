@@ -68,7 +68,7 @@ from relguide.planning.cells import Cell, Disc, Polygon
 from relguide.planning.heights import VERTICAL_MINIMUM, WHOLE_METRE
 from relguide.planning.outcome import Plan
 from relguide.planning.wind import Wind
-from relguide.units import Metre, Second
+from relguide.units import Metre, MetrePerSecond, Second
 
 FINAL_LEG: Second = 1200.0
 """How much of the leader's endless final leg is shown [s]: as much as a pursuer needs at 100 km."""
@@ -96,6 +96,8 @@ class LinkState(NamedTuple):
     autopilot: bool = True
     director: bool = False
     bars: tuple[Bars, ...] = ()
+    least_tas: MetrePerSecond = 0.0
+    """The slowest that the pursuer can fly at its level."""
 
 
 def sample(
@@ -165,6 +167,7 @@ def _guidance_sample(
         engagement=advice.engagement,
         autopilot=link.autopilot,
         director=link.director,
+        least_tas=link.least_tas,
         bars=link.bars,
     )
 

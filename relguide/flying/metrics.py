@@ -11,6 +11,7 @@ from relguide.flying.by_hand import bars_in_view
 from relguide.flying.documents import (
     Alert,
     Document,
+    EngagementChanged,
     ModeChanged,
     PlanChanged,
     SeparationLost,
@@ -40,10 +41,13 @@ def count_event(metrics: FlightMetrics, document: Document, leader: str) -> Flig
     match document:
         case Alert(subject="separation", other=other) if other != leader:
             return _count_alert(metrics, document)
-        case PlanChanged(t=0.0, reason="engaged", plan=card, promised=promised):
-            return metrics._replace(planned_time=card.time_to_converge, promised=promised)
-        case PlanChanged(reason="engaged"):
-            return metrics._replace(unable=())
+        case EngagementChanged(t=t, engagement="engaged"):
+            return metrics._replace(engaged_at=t)
+        case PlanChanged(t=t, reason="engaged", plan=card, promised=promised):
+            metrics = metrics._replace(unable=())
+            if t == metrics.engaged_at and metrics.planned_time == 0.0:
+                return metrics._replace(planned_time=card.time_to_converge, promised=promised)
+            return metrics
         case PlanChanged(announced=announced):
             return metrics._replace(
                 unable=(),

@@ -77,6 +77,8 @@ class FlightMetrics(NamedTuple):
     """Flown over the ground until joined."""
     bank_reversals: int = 0
     """From one side to the other, until joined."""
+    engaged_at: Second = 0.0
+    """When guidance was last engaged [s]."""
     planned_time: Second = 0.0
     """Time to converge of the plan at engagement; 0 if there was none [s]."""
     promised: Second = 0.0

@@ -65,12 +65,12 @@ from relguide.flying.pursuit import (
     keep_margin,
 )
 from relguide.flying.sky import Sky
-from relguide.flying.world import World
+from relguide.flying.world import Aircraft, Guided, World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
 from relguide.planning.outcome import Planner
 from relguide.planning.plan import plan
 from relguide.planning.wind import Wind
-from relguide.units import Metre, Second
+from relguide.units import Metre, Radian, Second
 
 Fan = Callable[[Pursuit, Belief], Iterator[Document]]
 """What is said of joins after turns that a leader has not announced."""
@@ -262,6 +262,7 @@ def _start_document(
                 ident=aircraft.ident,
                 aircraft_type=aircraft.aircraft_type,
                 max_bank=aircraft.max_bank,
+                autopilot_bank=_autopilot_bank(aircraft),
             )
             for aircraft in world.aircraft
         ),
@@ -418,7 +419,13 @@ def _sample(
     """
     links = [
         LinkState(
-            one.names, one.advice, before, one.autopilot, one.director, bars_of(one, fleet, step)
+            names=one.names,
+            advice=one.advice,
+            least=before,
+            autopilot=one.autopilot,
+            director=one.director,
+            bars=bars_of(one, fleet, step),
+            least_tas=fleet.level_limits[one.pursuer].min_tas,
         )
         for one, before in zip(pursuits, least, strict=True)
         if one.advice is not None
@@ -428,3 +435,7 @@ def _sample(
         for i, aircraft in enumerate(fleet.world.aircraft)
     ]
     return sample(t + since, aircraft, links, since)
+
+
+def _autopilot_bank(aircraft: Aircraft) -> Radian:
+    return aircraft.autopilot_bank if isinstance(aircraft.pilot, Guided) else 0.0

@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Iterator
+from dataclasses import replace
 from math import radians
 from typing import Any
 
@@ -9,6 +10,7 @@ import orjson
 import pytest
 from hypothesis import given, settings
 from relguide_server.app import create_app
+from relguide_server.flights.catalogue import RequestedFlight
 from relguide_server.records.service import records_service
 from relguide_server.settings import ServiceSettings
 
@@ -16,10 +18,15 @@ from relguide.client import AsyncClient, Client, Invalid, Placed, Refused, calls
 from relguide.client.bodies import body_of
 from relguide.contract.bodies import plan_to_wire, situation_from_json
 from relguide.contract.bulk import refused_line
+from relguide.contract.messages import FlightRequest
+from relguide.contract.orders import crew_order, order_of
+from relguide.contract.pilot_bodies import pilot_of
 from relguide.contract.places import UNANCHORED
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import plan_card
 from relguide.flying.documents import FlightStarted, Sample
+from relguide.flying.orders import Stick
+from relguide.flying.pilot_model import PilotModel
 from relguide.flying.plan_documents import NoPlanCard, PathPoint, PlanCard
 from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
@@ -245,6 +252,47 @@ def test_a_flight_is_watched_commanded_recorded_and_ended(client: Client) -> Non
     kept = list(client.recorded(flight.id))
     assert isinstance(kept[0], FlightStarted)
     assert len([one for one in kept if isinstance(one, Sample)]) >= 3
+
+
+CREW = [{"t_s": 0, "engagement": "armed"}, {"on": "armed", "after_s": 5, "engagement": "engaged"}]
+STICK = {"t_s": 2, "stick_roll": 0.5}
+
+
+def test_a_flight_has_a_crew_orders_and_a_pilot() -> None:
+    asked: list[FlightRequest] = []
+    catalogue = ideal_catalogue()
+
+    def find(wanted: FlightRequest) -> RequestedFlight:
+        asked.append(wanted)
+        return catalogue.find(wanted)
+
+    async def ask(url: str) -> None:
+        async with AsyncClient(url) as client:
+            await client.fly("ideal", by_hand=True, crew=CREW, orders=[STICK])
+
+    slow = PilotModel(bandwidth=0.5, threshold=radians(2.0))
+    app = create_app(ServiceSettings(workers=0), catalogue=replace(catalogue, find=find))
+    with serve(app) as address, Client(f"http://{address}") as client:
+        client.fly("ideal")
+        client.fly("ideal", by_hand=slow, crew=CREW, engagement="designated")
+        asyncio.run(ask(f"http://{address}"))
+        with pytest.raises(ValueError, match=r"lead must be 0 s"):
+            client.fly("ideal", by_hand=PilotModel.perfect())
+    plain, crewed, flown = asked
+    assert (plain.engagement, plain.by_hand, plain.crew, plain.orders) == (
+        "engaged",
+        False,
+        None,
+        [],
+    )
+    assert pilot_of(crewed.by_hand, seed=7) == slow
+    assert crewed.engagement == "designated"
+    assert flown.by_hand is True
+    assert "engagement" not in flown.model_fields_set
+    for one in (crewed, flown):
+        assert [crew_order(line).on for line in one.crew or ()] == ["start", "armed"]
+    (line,) = flown.orders
+    assert order_of(line).command == Stick(roll=0.5)
 
 
 def test_the_same_without_waiting(url: str) -> None:

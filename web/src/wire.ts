@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-cdf436e5d354";
+export const PROTOCOL = "relguide-4d3e8feea5cf";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -262,6 +262,11 @@ export interface AircraftCard {
   ident: string;
   aircraft_type: string;
   max_bank_deg: number;
+  /**
+   * Most that its autopilot banks, to stay on a path that turns at the bank above; left out of an
+   * aircraft that is not guided, and in older recordings.
+   */
+  autopilot_bank_deg?: number;
 }
 
 /** One aircraft at one instant, as it flies (roll dynamics included). */
@@ -1224,6 +1229,11 @@ export interface GuidanceSample {
   autopilot?: boolean;
   /** Whether the flight director is on. */
   director?: boolean;
+  /**
+   * The slowest that its aircraft can fly at its level, wings level; left out in older
+   * recordings.
+   */
+  least_tas_mps?: number;
   /** Its bars; none while they are out of view: it is off, or guidance is. */
   bars?: Bars[];
 }
@@ -1502,7 +1512,7 @@ export interface LinkResult {
   joined: boolean;
   /** When eq. (7) first held within tolerance; the flight's duration if it never did. */
   join_time_s: number;
-  /** Time to converge of the plan at engagement; 0 if there was none. */
+  /** Time to converge of the plan at engagement, from then on; 0 if there was none. */
   planned_time_s: number;
   /** Time until joined that the plan at engagement promised, braking included; 0 as above. */
   promised_s: number;

@@ -20,6 +20,7 @@ STILL_FLOWN = "{ident} is still flown by hand: give it back, and try again in a 
 NOT_HELD = "You do not have control: take it first."
 TAKEN = "You have control from the next second of flight on."
 GIVEN_BACK = "The autopilot flies from the next second of flight on, once the bank is small enough."
+REMOVED = "This flight was ended and removed: nobody flies it any more."
 LOST = "The autopilot was switched on: it flies."
 
 
@@ -95,6 +96,13 @@ class Control:
         if holder is not None and (over or self._hands.lost):
             self.release(holder)
             self._answer(holder, OVER if over else LOST)
+
+    def end(self) -> None:
+        """Tell the client that has control that the flight is removed."""
+        holder = self._holder
+        if holder is not None:
+            self.release(holder)
+            self._answer(holder, REMOVED)
 
     def _take(self, client: StreamClient, wanted: TakeControl, standing: Standing) -> str:
         ident = wanted.ident or next((link.pursuer for link in standing.started.links), "")

@@ -4,9 +4,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from relguide.contract.crew_lines import StickOrder
 from relguide.contract.flown_bodies import scenario_from_body
 from relguide.contract.intent_bodies import intent_from_body
-from relguide.contract.messages import FlightRequest, ScenarioFlightRequest, SituationFlightRequest
+from relguide.contract.messages import (
+    MAX_ORDERS,
+    FlightRequest,
+    ScenarioFlightRequest,
+    SituationFlightRequest,
+)
 from relguide.contract.orders import Order, crew_order, fault_in, order_of
 from relguide.contract.pilot_bodies import pilot_of
 from relguide.contract.places import UNANCHORED, Anchor
@@ -52,7 +58,7 @@ def scenario_of(wanted: FlightRequest) -> tuple[str, Scenario, Anchor]:
         found = replace(found, intent_known=wanted.intent_known)
     if wanted.spacing_time_s is not None:
         found = replace(found, spacing=wanted.spacing_time_s)
-    found = replace(found, by_hand=pilot_of(wanted.by_hand))
+    found = replace(found, by_hand=pilot_of(wanted.by_hand, wanted.seed))
     return name, found, anchor
 
 
@@ -76,6 +82,17 @@ def ordered_in(wanted: FlightRequest, found: Scenario) -> Ordered:
     if wanted.crew is None or "engagement" in wanted.model_fields_set:
         begins = wanted.engagement
     return Ordered(tuple(orders), script, begins)
+
+
+def kept_request(wanted: FlightRequest) -> str:
+    """A request as it is put on record, JSON: an hour of sticks is not kept twice.
+
+    Each is a document of its flight once it is given; what has a thousand orders at most is whole.
+    """
+    if len(wanted.orders) > MAX_ORDERS:
+        others = [line for line in wanted.orders if not isinstance(line, StickOrder)]
+        wanted = wanted.model_copy(update={"orders": others})
+    return wanted.model_dump_json(exclude_unset=True)
 
 
 def _expect_flying(name: str, commands: Sequence[Command], found: Scenario) -> None:

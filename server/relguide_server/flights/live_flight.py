@@ -283,6 +283,7 @@ class LiveFlight:
         """
         self.pace.stop()
         self._count_end("broken" if self.broken else outcome)
+        self.control.end()
         self.dismiss(FLIGHT_GONE, "This flight is over and has been removed.")
         if self._stage is not None:
             stage, self._stage = self._stage, None

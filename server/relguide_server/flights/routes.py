@@ -15,11 +15,11 @@ from relguide.contract.commands import (
     SetRateCommand,
 )
 from relguide.contract.messages import FlightList, FlightRequest, FlightStatus, ScenarioList
-from relguide.contract.pilot_bodies import pilot_of
 from relguide.contract.protocol import PROTOCOL, STREAM
 from relguide.contract.refusal import ContractError, parse
 from relguide_server.flights.catalogue import CatalogueOf
 from relguide_server.flights.flight_commands import give_command, guidance_of
+from relguide_server.flights.flight_requests import kept_request
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.peers import Peers
@@ -29,7 +29,9 @@ from relguide_server.flights.watchers import TooManyWatch
 from relguide_server.http.access import expect_owner, may_command, owner_of
 from relguide_server.http.bodies import (
     address_of,
+    expect_object,
     json_answer,
+    read_flights,
     read_object,
 )
 from relguide_server.http.errors import Refusal, refusal_of
@@ -37,6 +39,7 @@ from relguide_server.http.etags import tagged_answer
 from relguide_server.http.idempotency import IdempotentRoute
 from relguide_server.http.openapi import (
     BODY,
+    header_references,
     problem_responses,
     request_body,
     response,
@@ -64,7 +67,9 @@ class FlightCommand(RootModel[Command]):
 FlightId = Annotated[
     str, Path(description="As `POST /flights` gave it.", examples=["3f2a9c0d71be"])
 ]
-ENDED: dict[int | str, dict[str, Any]] = {204: {"description": "It is over."}}
+ENDED: dict[int | str, dict[str, Any]] = {
+    204: {"description": "It is over.", "headers": header_references(["Relguide-Recorded"])}
+}
 
 router = APIRouter(
     prefix="/api/v1",
@@ -113,10 +118,11 @@ async def start_flight(
     whether it is on record already (`yes`) or not, or not yet (`no`).
     """
     try:
-        asked = parse(NewFlight, await read_object(request)).root
+        asked = await read_flights(request, _read)
         wanted = begun_at_report(asked, request.app.state.reported_place)
         # A recorded leader is read from a file: not on the event loop.
         departure = await asyncio.to_thread(catalogue.find, wanted)
+        kept = await asyncio.to_thread(kept_request, wanted)
     except ContractError as error:
         raise refusal_of(error) from None
     if departure.first is not None:
@@ -129,7 +135,7 @@ async def start_flight(
             id=flight_id,
             scenario=departure.scenario,
             title=departure.title,
-            request=wanted.model_dump_json(exclude_unset=True),
+            request=kept,
             settings=request.app.state.settings.text_for_records(),
             seed=wanted.seed,
             requested_by=address_of(request),
@@ -143,7 +149,7 @@ async def start_flight(
         rate=wanted.rate,
         paused=wanted.paused,
         record=record,
-        modelled=pilot_of(wanted.by_hand) is not None,
+        modelled=wanted.by_hand is not False,
         reported_leader=getattr(wanted, "reported_leader", None) or "",
         owner=owner_of(request),
         client=client_of(request.scope),
@@ -198,11 +204,15 @@ async def show_flight(flight_id: FlightId, request: Request, fleet: FleetOf) -> 
 async def end_flight(
     flight_id: FlightId, request: Request, fleet: FleetOf, records: RecordsOf
 ) -> Response:
-    """Its streams and its scene close with it; what is read of its record then is all of it."""
+    """Its streams and its scene close with it.
+
+    Where the header `Relguide-Recorded` says `yes`, what is read of its record then is all of it;
+    `no`: not yet, or it is not recorded.
+    """
     expect_owner(request, fleet.find(flight_id).label.owner)
     await fleet.remove(flight_id)
-    await records.saved()
-    return Response(status_code=204)
+    is_whole = await records.saved(to_the_end=True)
+    return Response(status_code=204, headers={"Relguide-Recorded": "yes" if is_whole else "no"})
 
 
 @router.post(
@@ -284,6 +294,16 @@ async def _show(flight: LiveFlight, websocket: WebSocket) -> None:
         await client.pump(websocket, hear)
     finally:
         flight.leave(client)
+
+
+def _read(content: object) -> FlightRequest:
+    """What is asked to be flown.
+
+    Raises:
+        ContractError: naming each field that is wrong.
+    """
+    wanted: FlightRequest = parse(NewFlight, expect_object(content)).root
+    return wanted
 
 
 def status_of(flight: LiveFlight, request: Request) -> FlightStatus:

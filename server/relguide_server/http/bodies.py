@@ -4,7 +4,8 @@ The contract reads the bytes itself, so REST, command line and files refuse with
 """
 
 import asyncio
-from collections.abc import Awaitable
+from collections.abc import Awaitable, Callable
+from contextlib import nullcontext
 from typing import TypeVar
 
 import orjson
@@ -20,6 +21,8 @@ T = TypeVar("T")
 SMALL = 16 * 1024
 """Bodies of at most so many bytes are read on the event loop: some milliseconds, whatever they
 hold."""
+FLIGHTS = 3 * 1024 * 1024
+"""Most bytes of a request for flights: as many sticks as one may have, with all their digits."""
 BODY_PATIENCE = 15.0
 """How long a body may take to come [s]."""
 STOPPING = "The service is stopping, and waits for the rest of the body no longer."
@@ -34,6 +37,8 @@ class Bodies:
     def __init__(self) -> None:
         self.coming: set[asyncio.Timeout] = set()
         self.stopped = False
+        self.reading = asyncio.Lock()
+        """Held while a long one is read: each takes memory and a second of a core."""
 
     def stop(self) -> None:
         """Wait for none of them any more."""
@@ -153,6 +158,24 @@ def parse_json(body: bytes) -> object:
         raise refusal_of(error, 400) from None
 
 
+async def read_flights(request: Request, work: Callable[[object], T]) -> T:
+    """What some work makes of the content of a request for flights, one body at a time.
+
+    An hour of flying by hand takes a second to read: that is done by a thread.
+
+    Args:
+        request: of a route.
+        work: is given the content.
+
+    Raises:
+        Refusal: if it is not declared to be JSON, or is no JSON; or what the work raises.
+    """
+    body = await read_body(request, JSON, most=FLIGHTS)
+    bodies: Bodies = request.app.state.bodies
+    async with bodies.reading if len(body) > SMALL else nullcontext():
+        return await asyncio.to_thread(lambda: work(parse_json(body)))
+
+
 async def read_object(request: Request) -> dict[str, object]:
     """The body of a request, for a route that takes a small object.
 
@@ -160,7 +183,15 @@ async def read_object(request: Request) -> dict[str, object]:
         Refusal: if it is not declared to be JSON, or is no JSON.
         ContractError: if it is no object.
     """
-    content = parse_json(await read_body(request, JSON))
+    return expect_object(parse_json(await read_body(request, JSON)))
+
+
+def expect_object(content: object) -> dict[str, object]:
+    """The content of a body that is an object.
+
+    Raises:
+        ContractError: if it is none.
+    """
     if isinstance(content, dict):
         return content
     raise ContractError([("", "The body must be an object with fields.")])

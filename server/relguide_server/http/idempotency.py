@@ -21,7 +21,7 @@ from starlette.responses import Response
 from starlette.types import Message, Scope
 
 from relguide_server.http.access import owner_of
-from relguide_server.http.bodies import JSON, address_of, read_body, unless_left
+from relguide_server.http.bodies import FLIGHTS, JSON, address_of, read_body, unless_left
 from relguide_server.http.errors import Refusal, answer_left, answer_refusal, log
 from relguide_server.http.kept_answers import Answer, Asked, KeptAnswers
 
@@ -165,7 +165,7 @@ class IdempotentRoute(APIRoute):
             key = _key_of(request.headers)
             if key is None:
                 return await plain(request)
-            body = await read_body(request, JSON)
+            body = await read_body(request, JSON, most=FLIGHTS)  # its route may take less
             idempotency: Idempotency = request.app.state.idempotency
             return await idempotency.answer(request, key, body, plain)
 

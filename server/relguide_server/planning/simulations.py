@@ -15,13 +15,7 @@ from relguide.contract.simulation_bodies import (
     expect_unwatched,
 )
 from relguide_server.flights.flight_requests import ordered_in, scenario_of
-from relguide_server.http.bodies import (
-    JSON,
-    json_answer,
-    parse_json,
-    read_body,
-    unless_left,
-)
+from relguide_server.http.bodies import json_answer, read_flights, unless_left
 from relguide_server.http.errors import refusal_of
 from relguide_server.http.idempotency import IdempotentRoute
 from relguide_server.http.openapi import (
@@ -84,12 +78,11 @@ async def simulate_flights(
     plan_service: PlanService = request.app.state.plan_service
     workers: WorkerPool = request.app.state.workers
     preparation.require_planner(planner or plan_service.name)
-    content = parse_json(await read_body(request, JSON))
-    # a recorded leader is read from a file: not on the event loop
-    wanted = await asyncio.to_thread(_read, content)
+    # a recorded leader is read from a file, too
+    wanted = await read_flights(request, _read)
     room = asyncio.Semaphore(AT_A_TIME)
 
-    async def fly(one: FlightRequest) -> bytes:
+    async def fly(one: str) -> bytes:
         async with room:
             figures: bytes = await workers.do(
                 "simulations",
@@ -110,8 +103,8 @@ async def simulate_flights(
     return json_answer(b"[" + b",".join(texts) + b"]")
 
 
-def _read(content: object) -> list[FlightRequest]:
-    """What is to be flown.
+def _read(content: object) -> list[str]:
+    """What is to be flown, each as JSON.
 
     Raises:
         Refusal: naming each field that is wrong.
@@ -126,7 +119,7 @@ def _read(content: object) -> list[FlightRequest]:
             _expect_flyable(index, one)
     except ContractError as error:
         raise refusal_of(error) from None
-    return wanted
+    return [one.model_dump_json(exclude_unset=True) for one in wanted]
 
 
 def _expect_flyable(index: int, wanted: FlightRequest) -> None:

@@ -10,6 +10,7 @@ from time import monotonic, perf_counter, thread_time
 from typing import Any, Literal
 
 import orjson
+from pydantic import TypeAdapter
 
 from relguide.contract.answers import Form, Include, answer, answer_plan
 from relguide.contract.area_bodies import area_to_wire
@@ -43,6 +44,7 @@ from relguide_server.flights.flight_requests import ordered_in, scenario_of
 from relguide_server.http.bodies import parse_json
 from relguide_server.http.errors import Refusal, refusal_of
 
+_REQUEST: TypeAdapter[FlightRequest] = TypeAdapter(FlightRequest)
 MAX_BATCH = 1000
 """Most situations in one request."""
 MAX_LINE = 64 * 1024
@@ -249,9 +251,10 @@ def draw_area(
     return orjson.dumps(area_to_wire(area, situation, anchor, exact=exact, times=times))
 
 
-def simulate(wanted: FlightRequest, planner: str | Planner) -> bytes:
-    """Fly a flight to its end, as fast as it goes, and give its figures as JSON text."""
+def simulate(request: str, planner: str | Planner) -> bytes:
+    """Fly a request for a flight, JSON, to its end at once, and give its figures as JSON text."""
     started = perf_counter()
+    wanted = _REQUEST.validate_json(request)
     name, flown, _ = scenario_of(wanted)
     ordered = ordered_in(wanted, flown)
     flight_of = partial(

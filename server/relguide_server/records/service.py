@@ -36,6 +36,8 @@ if TYPE_CHECKING:  # with SQLAlchemy, which takes 0.3 s to import: the writer's 
 T = TypeVar("T")
 SOON: Second = 1.0
 """How long an answer waits at most until what it acknowledges is saved."""
+TO_THE_END: Second = 10.0
+"""The same of an answer after which the whole record is read."""
 READERS = 2
 """Requests that read records at a time."""
 DAY: Second = 86_400.0
@@ -88,9 +90,18 @@ class RecordsService:
         self._writer.put(Began(card, now))
         return FlightRecorder(card.id, self._writer, self._clock, started_at=now)
 
-    async def saved(self) -> bool:
-        """Wait until all that was begun and commanded so far is saved; false if it cannot be."""
-        return self._writer is not None and await self._writer.saved(SOON)
+    async def saved(self, *, to_the_end: bool = False) -> bool:
+        """Wait until all that was begun, flown and commanded so far is saved.
+
+        Args:
+            to_the_end: whether a flight has ended, whose record is read next: that is waited for
+                longer.
+
+        Returns:
+            Whether it is; false if it cannot be, or not so soon.
+        """
+        patience = TO_THE_END if to_the_end else SOON
+        return self._writer is not None and await self._writer.saved(patience)
 
     def note_command(self, flight_id: str, *, t: Second, body: str, sent_by: str) -> None:
         """Record a command."""

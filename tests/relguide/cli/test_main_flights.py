@@ -2,6 +2,7 @@
 
 import gzip
 import json
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from re import sub
@@ -10,8 +11,10 @@ from typing import Any
 import pytest
 
 from relguide.cli.flight_tables import print_flight
+from relguide.cli.situation_file import read_flight
 from relguide.contract.flight_summary import summarize
 from relguide.contract.recorder import replay
+from relguide.flying.dispersion import disperse_pilot
 from relguide.flying.documents import (
     AssignmentChanged,
     EngagementChanged,
@@ -19,7 +22,10 @@ from relguide.flying.documents import (
     LeaderChanged,
     Sample,
 )
+from relguide.flying.flight import fly
+from relguide.flying.pilot_model import PilotModel
 from relguide.flying.scenarios import SCENARIOS
+from relguide.planning.plan import plan
 from relguide.units import DEG
 from tests.command_line import NEAR, UNREACHABLE, Run, process, write
 
@@ -361,6 +367,14 @@ def timeless(file: str) -> list[str]:
     return [sub(r'"compute_ms":[^,}]*', "", line) for line in Path(file).read_text().splitlines()]
 
 
+def _within_bar(seed: int) -> float:
+    """Of a flight by the pilot that a seed draws [s]."""
+    flown = replace(read_flight(write(NEAR)), by_hand=disperse_pilot(PilotModel(), seed))
+    flight = summarize(fly(flown, plan, seed=seed, sample_period=1.0))
+    (result,) = flight.ended[0].results
+    return result.by_hand[0].within_bar
+
+
 @pytest.mark.slow
 def test_a_pilot_model_flies_along_the_bars(run: Run) -> None:
     code, out, _ = run("fly", write(NEAR), "--director", "--json")
@@ -370,5 +384,7 @@ def test_a_pilot_model_flies_along_the_bars(run: Run) -> None:
     assert set(by_hand) == {"time_s", "with_bars_s", "within_bar_s", "tube_m"}
     assert by_hand["time_s"] == by_hand["with_bars_s"] == figures["simulated_s"]
     assert 0.5 < by_hand["within_bar_s"] / by_hand["time_s"] < 1.0
+    code, out, _ = run("fly", write(NEAR), "--director", "--seed", "7", "--json")
+    assert json.loads(out)["by_hand"]["within_bar_s"] == _within_bar(7) != by_hand["within_bar_s"]
     code, out, _ = run("fly", write(NEAR), "--director", "--table")
     assert "the bar within 2° for" in out

@@ -13,6 +13,7 @@ from relguide.flying.documents import (
     ControlChanged,
     Document,
     Engagement,
+    FlightStarted,
     PlanChanged,
     Sample,
     SeparationLost,
@@ -268,3 +269,14 @@ def test_a_modelled_pilot_keeps_its_stick_and_its_bars() -> None:
         "A modelled pilot flies along the bars: they stay on.",
     ]
     assert samples(documents)[-1].guidance[0].bars
+
+
+def test_what_limits_the_hand_is_said() -> None:
+    flown = fly(scenario("fig_6b"), plan, sample_period=1.0)
+    started = next(flown)
+    assert isinstance(started, FlightStarted)
+    pursuer, leader = started.aircraft
+    assert pursuer.autopilot_bank > pursuer.max_bank > 0.0
+    assert leader.autopilot_bank == 0.0
+    first = next(one for one in flown if isinstance(one, Sample))
+    assert 0.5 < first.guidance[0].least_tas / first.aircraft[0].tas < 1.0

@@ -7,6 +7,7 @@ from relguide.flying.aircraft_documents import Loss
 from relguide.flying.documents import (
     Alert,
     Document,
+    EngagementChanged,
     ModeChanged,
     PlanChanged,
     SeparationLost,
@@ -60,6 +61,15 @@ def test_only_the_plan_at_engagement_promises() -> None:
     engaged = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
     late = count(replace(engaged, t=5.0))
     assert (late.planned_time, late.promised, late.replans) == (0.0, 0.0, 0)
+    by_crew = EngagementChanged(
+        t=5.0, ident="A", engagement="engaged", previous="armed", message=""
+    )
+    planned, promised = engaged.plan.time_to_converge, engaged.promised
+    late = count(by_crew, replace(engaged, t=5.0), replace(engaged, t=9.0, promised=1.0))
+    assert (late.planned_time, late.promised, late.replans) == (planned, promised, 0)
+    off = replace(by_crew, t=7.0, engagement="off", previous="engaged")
+    late = count(off, replace(by_crew, t=8.0), replace(engaged, t=9.0))
+    assert (late.planned_time, late.promised) == (0.0, 0.0)
 
 
 def test_an_alert_counts_from_its_first_word_until_it_is_cleared() -> None:

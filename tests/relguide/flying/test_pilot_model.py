@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from relguide.contract.pilot_bodies import PilotBody, pilot_of
 from relguide.flying.by_hand import is_announced
-from relguide.flying.dispersion import random_situation
+from relguide.flying.dispersion import disperse_pilot, random_situation
 from relguide.flying.documents import FlightEnded, PlanChanged, Sample
 from relguide.flying.fleet import Fleet
 from relguide.flying.flight import Scenario, fly, world_of
@@ -184,3 +185,17 @@ def test_the_nearest_a_pilot_comes_is_not_below_d_min() -> None:
         if isinstance(one, Sample)
     ]
     assert min(apart) >= NEAR.min_separation
+
+
+def test_a_seed_draws_the_pilot_that_is_not_described() -> None:
+    usual, names = PilotModel(), ("bandwidth", "delay", "remnant", "threshold", "reaction")
+    assert disperse_pilot(usual, 0) == usual
+    drawn = [disperse_pilot(usual, seed) for seed in range(1, 200)]
+    for name in names:
+        shares = [getattr(one, name) / getattr(usual, name) for one in drawn]
+        assert 0.5 <= min(shares) < 0.55
+        assert 1.45 < max(shares) <= 1.5
+    assert disperse_pilot(PilotModel(lead=0.4), 7).lead == 0.4
+    assert pilot_of(True, 7) == disperse_pilot(usual, 7) != usual
+    assert pilot_of(PilotBody(), 7) == usual
+    assert pilot_of(False, 7) is None

@@ -2,15 +2,18 @@
 
 import time
 from itertools import islice
+from pathlib import Path
 
+import httpx2
 import pytest
 from relguide_server.app import create_app
 from relguide_server.flights.catalogue import FAN_PAUSE, library_catalogue, not_too_often
 from relguide_server.flights.routes import NewFlight
 from relguide_server.planning.plans import EXAMPLE
+from relguide_server.records.service import records_service
 from relguide_server.settings import ServiceSettings
 
-from relguide.contract.messages import SituationFlightRequest
+from relguide.contract.messages import MAX_STICKS, SituationFlightRequest
 from relguide.contract.protocol import PROTOCOL
 from relguide.contract.refusal import parse
 from relguide.flying.documents import CommandGiven, FlightStarted, LeaderChanged, Sample
@@ -20,6 +23,7 @@ from relguide.planning.plan import plan
 from relguide.planning.trajectory import RIGHT
 from tests.server.serving import TestClient
 
+JSON = {"Content-Type": "application/json"}
 TURN = {"direction": "right", "bank_deg": 20.0}
 
 
@@ -85,6 +89,45 @@ def test_a_crew_is_asked_for_with_the_flight_and_begins_as_it_says() -> None:
         first = next(document for document in flown if isinstance(document, Sample))
         assert first.guidance[0].engagement == engagement
         assert [one.t for one in flown if isinstance(one, CommandGiven)] == given
+
+
+def sticks(count: int) -> list[dict[str, float]]:
+    """A stick moved at each step."""
+    return [{"t_s": k / 20, "stick_roll": (-1) ** k * 0.123456789} for k in range(count)]
+
+
+@pytest.mark.slow
+def test_an_hour_of_flying_by_hand_is_asked_for_in_one_body(tmp_path: Path) -> None:
+    level = {"t_s": 1800.0, "leader_level_m": 8000.0}
+    hour: list[dict[str, float]] = [*sticks(MAX_STICKS), level]
+    records = records_service(
+        records="on", database_url="", data=str(tmp_path), record_plans=0, keep_days=1.0,
+        keep_mb=10.0,
+    )  # fmt: skip
+    with TestClient(create_app(ServiceSettings(workers=0), records=records)) as client:
+
+        def ask(orders: list[dict[str, float]], key: str = "") -> httpx2.Response:
+            body = {"scenario": "fig_6b", "orders": orders}
+            headers = {"Idempotency-Key": key} if key else {}
+            return client.post("/api/v1/flights", json=body, headers=headers)
+
+        started = ask(hour, "hour")
+        assert started.status_code == 201, started.text
+        assert ask(hour, "hour").json() == started.json()
+        kept = client.get(f"/api/v1/records/flights/{started.json()['id']}").json()["request"]
+        assert kept == {"scenario": "fig_6b", "orders": [level]}
+        for orders, said in (
+            ([*hour[:-1], hour[-2]], "must have at most 36,000 sticks, not 36,001."),
+            ([level] * 1001, "must have at most 1,000 beside sticks, not 1,001."),
+            ([level] * 37_001, "must have at most 37,000 entries, not 37,001."),
+        ):
+            (fault,) = ask(orders).json()["errors"]
+            assert fault == {"path": "orders", "message": said}
+        whole = ask(sticks(1000)).json()["id"]
+        kept = client.get(f"/api/v1/records/flights/{whole}").json()["request"]
+        assert kept["orders"] == sticks(1000)
+        long = client.post("/api/v1/flights", content=b" " * (3 * 1024 * 1024 + 1), headers=JSON)
+        assert long.json()["detail"].startswith("The body of this request may have at most 3,145,")
 
 
 def test_a_leader_breaks_its_word_whoever_watches() -> None:

@@ -20,10 +20,12 @@ from relguide_server.flights.control import (
     NOT_HELD,
     OVER,
     RECORDING,
+    REMOVED,
     TAKEN,
     Standing,
 )
 from relguide_server.flights.frames import LONGEST, MOST, NOT_UNDERSTOOD, TOO_FAST
+from relguide_server.flights.stream import FLIGHT_GONE
 from relguide_server.http.access import NOT_YOURS
 from relguide_server.records.service import records_service
 from relguide_server.settings import ServiceSettings
@@ -355,6 +357,17 @@ def test_the_end_of_a_flight_is_the_end_of_control() -> None:
         asyncio.run(scene(address, start(address, rate=5.0)))
 
 
+def test_who_flies_a_flight_that_is_removed_hears_that_it_was_ended(address: str) -> None:
+    async def scene(flight_id: str) -> None:
+        async with Dial(address, flight_id) as crew:
+            await crew.ask(**TAKE)
+            await asyncio.to_thread(httpx.delete, f"http://{address}/api/v1/flights/{flight_id}")
+            assert await crew.closed() == (FLIGHT_GONE, "This flight is over and has been removed.")
+            assert crew.answers[1:] == [(False, REMOVED)]
+
+    asyncio.run(scene(start(address)))
+
+
 def test_a_recording_is_not_flown_by_hand() -> None:
     started = next(document for document in fig_6b(lambda t: ()))
     assert isinstance(started, FlightStarted)
@@ -395,6 +408,9 @@ def test_only_who_may_command_a_flight_may_fly_it(shown: str) -> None:
         ("hello", "not JSON"),
         (b"\x00", "must be text"),
         ('{"kind":"stick","roll":7}', "-1 … 1"),
+        ('{"kind":"stick","roll":1e308}', "-1 … 1"),
+        ('{"kind":"stick","roll":NaN}', "NaN is not a number"),
+        ('{"kind":"stick","roll":1e999}', "must be a finite number"),
         ("x" * (LONGEST + 1), f"at most {LONGEST} bytes"),
     ],
 )

@@ -1,6 +1,7 @@
 """Simulations: flown to their end by workers, with the figures of `relguide fly --json`."""
 
 import asyncio
+import json
 from collections.abc import Iterator
 from functools import partial
 from importlib.metadata import version
@@ -11,7 +12,6 @@ from relguide_server.planning.simulations import AT_A_TIME, EXAMPLE
 
 from relguide import plan
 from relguide.contract.flight_summary import figures, summarize
-from relguide.contract.messages import ScenarioFlightRequest
 from relguide.contract.orders import CrewOrderBody, OrderBody, commands_of, crew_order, order_of
 from relguide.contract.refusal import parse
 from relguide.contract.simulation_bodies import MAX_SIMULATIONS, SimulationAnswer
@@ -155,14 +155,15 @@ def test_where_one_is_refused_the_others_are_not_flown(monkeypatch: pytest.Monke
     begun: set[int] = set()
     left: set[int] = set()
 
-    async def do(kind: str, work: object, wanted: ScenarioFlightRequest, *_: object, **__: object):
-        begun.add(wanted.seed)
+    async def do(kind: str, work: object, wanted: str, *_: object, **__: object):
+        seed = json.loads(wanted)["seed"]
+        begun.add(seed)
         if len(begun) == AT_A_TIME:
             raise Refusal(503, "Too many wait: try again in a moment.")
         try:
             await asyncio.Event().wait()
         finally:
-            left.add(wanted.seed)
+            left.add(seed)
 
     app = ideal_app()
     monkeypatch.setattr(app.state.workers, "do", do)

@@ -18,8 +18,10 @@ from relguide_server.app import create_app
 from relguide_server.flights.flight_file_routes import _origin, _parts
 from relguide_server.planning.plans import EXAMPLE
 from relguide_server.records.exports import gives_level
+from relguide_server.records.recording import Rows
 from relguide_server.records.schema import flights
 from relguide_server.records.service import records_service
+from relguide_server.records.store import Store
 from relguide_server.settings import ServiceSettings
 
 from relguide.contract.flight_summary import summarize
@@ -100,6 +102,38 @@ def test_a_flight_is_found_and_read(client: TestClient, tmp_path: Path) -> None:
     later = client.get(f"{base}/{flight_id}/documents?first=10&limit=5").json()
     assert later["documents"] == whole["documents"][10:15]
     assert later["next"] == 15
+
+
+def test_a_record_is_whole_after_its_flight_is_ended_however_slow_the_disk(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("relguide_server.records.service.SOON", 1.0)
+    save = Store.save
+
+    def save_slowly(store: Store, rows: Rows, *, now: float) -> None:
+        time.sleep(1.5)
+        save(store, rows, now=now)
+
+    flight_id = start(client, rate=1.0)
+    monkeypatch.setattr(Store, "save", save_slowly)
+    bound = {"command": "leader_heading", "heading_deg": 135.0}
+    client.post(f"/api/v1/flights/{flight_id}/commands", json=bound)
+    ended = client.delete(f"/api/v1/flights/{flight_id}")
+    assert (ended.status_code, ended.headers["relguide-recorded"]) == (204, "yes")
+    found = record_of(client, flight_id)
+    assert (found["outcome"], found["lost"]) == ("removed", 0)
+    assert [one["command"]["command"] for one in found["commands"]] == [bound["command"]]
+    monkeypatch.setattr("relguide_server.records.service.TO_THE_END", 0.1)
+    again = start_unsaved(client)
+    assert client.delete(f"/api/v1/flights/{again}").headers["relguide-recorded"] == "no"
+
+
+def start_unsaved(client: TestClient) -> str:
+    """A flight that is not on record yet."""
+    answer = client.post("/api/v1/flights", json={"scenario": "ideal", "rate": 60.0})
+    assert (answer.status_code, answer.headers["relguide-recorded"]) == (201, "no")
+    flight_id: str = answer.json()["id"]
+    return flight_id
 
 
 def test_a_list_is_read_page_by_page_though_flights_begin_and_go_meanwhile(

@@ -108,8 +108,9 @@ function Outcome(props: { ended: LinkResult }) {
       <span class="headline-label">{ended.joined ? "Joined at" : "Ended, not joined"}</span>
       <span class="headline-figure">{formatClock(ended.join_time_s)}</span>
       <span class="headline-note">
-        planned {formatClock(ended.planned_time_s)}
-        {ended.joined && ended.optimum_s > 0 && ` · fastest ${formatClock(ended.optimum_s)}`} ·{" "}
+        {ended.planned_time_s > 0 &&
+          `planned ${formatClock(ended.planned_time_s)} from engaging · `}
+        {ended.joined && ended.optimum_s > 0 && `fastest ${formatClock(ended.optimum_s)} · `}
         {formatMiles(ended.track_m)} NM
       </span>
     </div>

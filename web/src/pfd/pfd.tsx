@@ -104,6 +104,11 @@ function Face({ session, gauge }: { session: Session; gauge: Gauge }) {
     const { assignment, started } = flight.moment.value;
     return assignment?.max_bank_deg ?? started?.pursuer.max_bank_deg ?? null;
   });
+  const most = useComputed(() => flight.moment.value.started?.pursuer.autopilot_bank_deg ?? null);
+  const slowest = useComputed(() => {
+    const least = flight.moment.value.now?.least_tas_mps ?? 0;
+    return least > 0 ? Math.round(least / KT) : null;
+  });
   const speed = useBug(() => {
     const { now, assignment } = flight.moment.value;
     const [selected] = assignment?.selected_tas_mps ?? [];
@@ -138,10 +143,10 @@ function Face({ session, gauge }: { session: Session; gauge: Gauge }) {
   return (
     <>
       <Sphere gauge={gauge} />
-      <BankScale planned={planned.value} />
+      <BankScale planned={planned.value} most={most.value} />
       <Bars gauge={gauge} director={director.value} isReverted={isReverted.value} />
       <Wings />
-      <SpeedTape gauge={gauge} bug={speed.value} />
+      <SpeedTape gauge={gauge} bug={speed.value} least={slowest.value} />
       <LevelTape gauge={gauge} bug={level.value} />
       <Climb gauge={gauge} />
       <HeadingTape gauge={gauge} bug={heading.value} track={track.value} />

@@ -76,8 +76,15 @@ function rungs(): string {
   }).join("");
 }
 
-/** The bank scale, what plans turn with on it, and the most that a hand may bank. */
-export function BankScale({ planned }: { planned: number | null }) {
+interface Limits {
+  /** What plans turn with [deg]; null while it is not known. */
+  readonly planned: number | null;
+  /** What the autopilot banks at most [deg]; null where it is not known. */
+  readonly most: number | null;
+}
+
+/** The bank scale; on it what plans turn with, what the autopilot banks at most, and a hand. */
+export function BankScale({ planned, most }: Limits) {
   return (
     <Still name="pfd-bank">
       <Stroke
@@ -95,6 +102,12 @@ export function BankScale({ planned }: { planned: number | null }) {
           line={{ colour: "plan", width: 3, dash: "" }}
         />
       )}
+      {most !== null && (
+        <Stroke
+          d={[most, -most].map(capped).join("")}
+          line={{ colour: "value", width: 3, dash: "" }}
+        />
+      )}
     </Still>
   );
 }
@@ -110,6 +123,15 @@ function bar(angle: number, within = 0, without = 14): string {
   const at = (radius: number) =>
     `${round(MIDDLE.x + radius * sin)} ${round(MIDDLE.y + radius * cos)}`;
   return `M${at(from)}L${at(to)}`;
+}
+
+/** A stroke with a lid: a limit. */
+function capped(angle: number): string {
+  const [sin, cos] = [Math.sin(angle * DEG), Math.cos(angle * DEG)];
+  const [x, y] = [MIDDLE.x + (ARC + 18) * sin, MIDDLE.y - (ARC + 18) * cos];
+  const [east, south] = [7 * cos, 7 * sin];
+  const lid = `M${round(x - east)} ${round(y - south)}L${round(x + east)} ${round(y + south)}`;
+  return bar(angle, 0, 18) + lid;
 }
 
 function round(value: number): number {

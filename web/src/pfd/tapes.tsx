@@ -34,7 +34,13 @@ function nearest(value: number, block: number): number {
   return Math.round(value / block) * block;
 }
 
-export function SpeedTape({ gauge, bug }: PartProps & { readonly bug: Bug | null }) {
+interface SpeedProps extends PartProps {
+  readonly bug: Bug | null;
+  /** The least speed [kt]; null where it is not known. */
+  readonly least: number | null;
+}
+
+export function SpeedTape({ gauge, bug, least }: SpeedProps) {
   const block = useReading(gauge, blockOfSpeed, 0);
   const middle = block.value;
   const move = useMemo(
@@ -56,6 +62,7 @@ export function SpeedTape({ gauge, bug }: PartProps & { readonly bug: Bug | null
             .map((speed) => (
               <Mark key={speed} x={right - 20} y={at(speed)} text={String(speed)} end />
             ))}
+          {least !== null && <TooSlow x={right + 1} y={at(least)} />}
           {bug !== null && (
             <path
               class="pfd-solid"
@@ -71,6 +78,18 @@ export function SpeedTape({ gauge, bug }: PartProps & { readonly bug: Bug | null
       <Readout gauge={gauge} box={SPEED} read={speedText} label="KT TAS" />
     </>
   );
+}
+
+/** It reaches beyond the window wherever it begins in it [px]. */
+const STRIP = { width: 9, length: 480, every: 10 } as const;
+
+/** Speeds that cannot be flown: a hatched strip beside the tape, from the least speed down. */
+function TooSlow({ x, y }: { readonly x: number; readonly y: number }) {
+  const hatches = Array.from({ length: STRIP.length / STRIP.every }, (_, k) => {
+    return `M${x} ${y + STRIP.every * (k + 1)}l${STRIP.width} ${-STRIP.every}`;
+  });
+  const edge = `M${x - 6} ${y}h${STRIP.width + 6}v${STRIP.length}`;
+  return <Stroke d={edge + hatches.join("")} line={{ colour: "alert", width: 3, dash: "" }} />;
 }
 
 const blockOfSpeed = (attitude: Attitude) => nearest(knots(attitude), SPEED_BLOCK);

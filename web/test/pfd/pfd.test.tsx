@@ -7,6 +7,7 @@ import { PrimaryFlightDisplay } from "../../src/pfd/pfd";
 import { createSession, type Session } from "../../src/session";
 import type { PairSample } from "../../src/store/pair";
 import type { Flight } from "../../src/store/types";
+import { KT } from "../../src/units";
 import type { AssignmentChanged } from "../../src/wire";
 import { flightIn } from "../nd/in-state";
 import { amend, modeChanged, OWN } from "../samples";
@@ -46,6 +47,23 @@ function sheet(name: string): HTMLElement | null {
 function words(): string {
   return [...place.querySelectorAll("text")].map((each) => each.textContent).join("|");
 }
+
+test("the least speed and the most bank of the autopilot are marked where they are known", async () => {
+  const marks = (name: string) => sheet(name)?.querySelectorAll("path").length ?? 0;
+  const { flight } = await show(BY_HAND);
+  const [bank, speed] = [marks("bank"), marks("speed")];
+  const { started } = flight.moment.value;
+  if (started === null) throw new Error("An empty flight.");
+  const pursuer = { ...started.pursuer, autopilot_bank_deg: 30 };
+  await act(() => {
+    amend(flight, { started: { ...started, pursuer } });
+    change(flight, { least_tas_mps: 180 * KT });
+  });
+  expect(marks("bank")).toBeGreaterThan(bank);
+  expect(marks("speed")).toBeGreaterThan(speed);
+  await expect(`${sheet("bank")?.outerHTML}\n`).toMatchFileSnapshot("snapshots/bank.html");
+  await expect(`${sheet("speed")?.outerHTML}\n`).toMatchFileSnapshot("snapshots/speed.html");
+});
 
 test("on a small screen it comes into sight as this page begins to fly, and on others stays", async () => {
   const seen: Element[] = [];
