@@ -6,7 +6,7 @@ import { confirm } from "./answering";
 import { startDemo } from "./demo";
 import { keepInSight, showAll } from "./map/view";
 import { MOST_BYTES, readRecording, writeRecording } from "./recording";
-import { choose, type Station } from "./station";
+import { choose, openTab, type Station } from "./station";
 import { openStream, type Stream } from "./stream";
 
 export interface Actions {
@@ -84,6 +84,7 @@ export function createActions(station: Station, address: string, protocol: strin
       }).then((sentence) => {
         busy.value = "";
         notice.value = sentence;
+        if (sentence === "") openTab(station, "");
       });
     },
   };

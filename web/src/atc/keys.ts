@@ -4,8 +4,8 @@ import { SILENCE } from "./alerts";
 import { answer, probe } from "./answering";
 import { pan, showAll, zoom } from "./map/view";
 import { type Conflict, conflictsOf } from "./pairs";
-import { choose, chooseNext, type Station, silence } from "./station";
-import { isWaiting } from "./urgency";
+import { choose, chooseNext, openTab, type Station, silence } from "./station";
+import { isWaiting, waitingIn } from "./urgency";
 import { REASONS } from "./words";
 
 type Act = (station: Station) => void;
@@ -84,7 +84,15 @@ function chooseWaiting(station: Station): void {
   const all = station.requests.value;
   const at = all.findIndex(({ id }) => id === station.selected.value);
   const next = [...all.slice(at + 1), ...all.slice(0, at + 1)].find(isWaiting);
-  if (next !== undefined) choose(station, next.id);
+  if (next !== undefined) {
+    choose(station, next.id);
+    return;
+  }
+  const sky = station.store.skies.value.find((one) => waitingIn(one) > 0);
+  if (sky === undefined) return;
+  openTab(station, sky.id);
+  const first = station.requests.value.find(isWaiting);
+  if (first !== undefined) choose(station, first.id);
 }
 
 /** The next pair of CARD, or the one before. */

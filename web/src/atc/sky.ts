@@ -17,7 +17,7 @@ export interface Sky {
 export function emptySky(id: string): Sky {
   return {
     id,
-    title: id === "" ? "Earth" : id,
+    title: id === "" ? "All traffic" : `Flight ${id}`,
     t: Number.NEGATIVE_INFINITY,
     aircraft: [],
     airspaces: [],

@@ -137,6 +137,18 @@ describe("a controller with a keyboard", () => {
     expect(station.sent.value).toBeNull();
   });
 
+  it("goes to the sky in which a request waits, where none does here", async () => {
+    tell([
+      seen([traffic("DLH1")]),
+      seen([traffic("AFR9")], NOW, "far"),
+      changed(clearance("9", { sky: "far" })),
+    ]);
+    expect(text("[role=tab][aria-selected=true]")).not.toContain("far");
+    await press("n", "s");
+    expect(text("[role=tab][aria-selected=true]")).toContain("Flight far");
+    expect(asked).toEqual([["POST", "api/v1/clearances/9/answers", { answer: "standby" }]]);
+  });
+
   it("chooses by arrows, and leaves with Escape", async () => {
     tell(FIVE.map((c) => changed(c)));
     await press("ArrowDown", "ArrowDown", "ArrowUp", "ArrowDown");
