@@ -2,12 +2,14 @@
 
 import json
 import re
+import time
 from collections.abc import Iterator
 from urllib.request import Request, urlopen
 
 import pytest
 from playwright.sync_api import Download, Locator, Page, expect
 
+from relguide.atc.clearances import OVER
 from tests.browser.service import Service, Watch
 from tests.browser.test_axe import SIZES, judge
 
@@ -23,12 +25,25 @@ def asked(sky: Service, page: Page, watched: Watch) -> Iterator[Page]:
         flown = [flight["id"] for flight in json.load(answer)["flights"]]
     for flight in flown:
         urlopen(Request(f"{flights}/{flight}", method="DELETE")).close()
+    wait_until_all_are_over(sky)
     page.goto(f"{sky.url}/atc")
     expect(page.locator(".atc-clock .link")).to_have_text("Live")
     page.get_by_role("button", name="Demo").focus()
     page.keyboard.press("Enter")
     yield page
     assert watched.complaints == []
+
+
+def wait_until_all_are_over(sky: Service) -> None:
+    """A request of a removed flight waits until the desk looks again."""
+    until = time.monotonic() + ASKED / 1000.0
+    while True:
+        with urlopen(f"{sky.url}/api/v1/clearances") as answer:
+            found = json.load(answer)["clearances"]
+        if all(one["state"] in OVER for one in found):
+            return
+        assert time.monotonic() < until
+        time.sleep(0.1)
 
 
 def strip(page: Page) -> Locator:
