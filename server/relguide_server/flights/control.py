@@ -20,7 +20,7 @@ STILL_FLOWN = "{ident} is still flown by hand: give it back, and try again in a 
 NOT_HELD = "You do not have control: take it first."
 TAKEN = "You have control from the next second of flight on."
 GIVEN_BACK = "The autopilot flies from the next second of flight on, once the bank is small enough."
-REMOVED = "This flight was ended and removed: nobody flies it any more."
+REMOVED = "This flight was ended and removed, so it cannot be flown any more."
 LOST = "The autopilot was switched on: it flies."
 
 
