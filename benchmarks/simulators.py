@@ -40,12 +40,12 @@ STEPS_OF_A_RUN = 1200
 FIGURES = ("fig_6a", "fig_6b")
 ASKED = {"when needed": DEFAULT, "each second": replace(DEFAULT, always_ask=True)}
 """When the planner is asked, and the settings for it."""
-OURS = "two that roll, one guided; no climb, no drag"
+OURS = "two that roll, one guided; thrust and drag"
 THEIRS = "two straight on; no roll, guidance or plan"
 """What flies, and what is left out."""
 HEADINGS = ("", "aircraft", "step s", "asked", "simulated s / CPU s", "of BlueSky's")
 NOTE = """relguide: autopilot and roll at 20 Hz; guidance, forecasts and a sample each second, all
-documents made; "asked" is how often the planner was. It flies level, without thrust or fuel.
+documents made; "asked" is how often the planner was. It flies level, without fuel.
 BlueSky and minisky: level flight with OpenAP's performance, conflict detection off; bank is at once
 what is asked for. They are made for many: a step costs hardly more with a hundred aircraft."""
 
