@@ -13,7 +13,7 @@ from tests.browser.picture import hide_toasts, take_picture
 from tests.browser.service import running_chromium, running_service
 from tests.browser.test_map import drag
 
-SMALL = 0.6
+SMALL = 0.8
 """Pixels of a picture by those of the page."""
 PATIENCE = 60_000
 """For the scene in software WebGL, and for a flight to join at ×60 [ms]."""
@@ -65,7 +65,7 @@ def engage(page: Page) -> None:
         page.keyboard.press("c")
         expect(page.locator(".mode-name")).to_have_text("Armed")
         page.keyboard.press("e")
-        page.wait_for_timeout(1000)
+        page.wait_for_timeout(2500)
         if page.locator(".mode-name").inner_text() == "Converge":
             return
 
