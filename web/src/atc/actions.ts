@@ -84,7 +84,7 @@ export function createActions(station: Station, address: string, protocol: strin
       }).then((sentence) => {
         busy.value = "";
         notice.value = sentence;
-        if (sentence === "") openTab(station, "");
+        if (sentence === "" && file.value === "") openTab(station, "");
       });
     },
   };

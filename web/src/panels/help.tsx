@@ -113,7 +113,7 @@ function GuideLink() {
       const { headers } = await fetch("./", { method: "HEAD" });
       isThere.value = headers.get("link")?.includes('rel="help"') ?? false;
     };
-    ask().catch(() => undefined); // nobody answers: no link then
+    ask().catch(() => undefined); // no answer, no link
   }, [isThere]);
   return (
     isThere.value && (
