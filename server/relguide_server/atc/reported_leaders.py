@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable
-from math import cos, floor, sin
+from math import ceil, cos, sin
 
 from relguide.atc.reported import Reported, seen_on
 from relguide.flying.orders import LeaderData, LeaderReport
@@ -86,19 +86,21 @@ class ReportedLeaders:
         if seen is None:
             return  # too far away to lie on its plane: the flight ends at the edge of that
         begun = self._skies.begun(flight)
-        # what is told now is heard as the next second begins, and is for its end
-        then = begun + floor(self._clock() - begun) + 2.0
-        ahead = then - seen.t
-        altitude = USUAL_LEVEL if seen.altitude is None else seen.altitude + seen.climb * ahead
-        flight.command(
-            LeaderReport(
+
+        def report_at(t: Second) -> LeaderReport:
+            """What is heard at flight time t holds from the next full second, for its end."""
+            ahead = begun + ceil(t) + 1.0 - seen.t
+            return LeaderReport(
                 x=seen.x + seen.ground_speed * ahead * sin(seen.track),
                 y=seen.y + seen.ground_speed * ahead * cos(seen.track),
                 track=wrap(seen.track),
                 ground_speed=seen.ground_speed,
-                altitude=altitude,
+                altitude=USUAL_LEVEL
+                if seen.altitude is None
+                else seen.altitude + seen.climb * ahead,
             )
-        )
+
+        flight.command_then(report_at)
 
     def _report(self, ident: str) -> Reported | None:
         """What is heard of an aircraft; `None` after silence."""

@@ -95,7 +95,7 @@ class LiveFlight:
         self.clients: set[StreamClient] = set()
         self._metrics = metrics
         self._source = source
-        self._commands: deque[Command] = deque()
+        self._commands: deque[Callable[[Second], Command]] = deque()
         self._hands = Hands()
         self.control = Control(self._hands)
         self._inbox = Inbox()
@@ -168,7 +168,15 @@ class LiveFlight:
 
     def command(self, command: Command) -> None:
         """Pass a command to the flight, which polls for it at its next step."""
-        self._commands.append(command)
+        self.command_then(lambda _: command)
+
+    def command_then(self, make: Callable[[Second], Command]) -> None:
+        """Pass a command that depends on when the flight polls for it.
+
+        Args:
+            make: makes it, in the flight's thread, given that flight time [s].
+        """
+        self._commands.append(make)
 
     def say(self, make: Callable[[Second], Document]) -> None:
         """Add a document that the flight does not give by itself; not once it is over.
@@ -345,7 +353,7 @@ class LiveFlight:
             # a stick is read when it acts; that of a full second sooner, as guidance plans first
             self.pace.wait_until(t)
         while self._commands:
-            yield self._commands.popleft()
+            yield self._commands.popleft()(t)
         yield from self._hands.orders(t)
 
     def _note_flying(self) -> None:
