@@ -5,7 +5,9 @@ from typing import Literal
 
 from relguide.flying.belief import Belief
 from relguide.flying.engagement import Engagement
+from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.commit.committed import Committed
+from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.modes import Mode
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.acceptance import Refusal
@@ -231,6 +233,20 @@ def summary(plan: Plan, joins_in: Second) -> str:
     least = plan.certificate.least_separation / NM
     height = " or 1,000 ft" if plan.certificate.vertical else ""
     return f"{plan.word} joins in {clock(joins_in)} and keeps {least:.1f} NM{height}"
+
+
+def past_slot(ahead: Forecast, belief: Belief, assignment: Assignment) -> str:
+    """To what separation a selected speed leads past the slot, in a clause; empty if d_min is kept.
+
+    Args:
+        ahead: the closed loop flown ahead.
+        belief: what is known now.
+        assignment: what was asked.
+    """
+    selected, (least, _) = assignment.selected_tas, ahead.least(belief.t)
+    if selected == 0.0 or least >= assignment.min_separation:
+        return ""
+    return f"; then {selected / KT:.0f} kt would lead to {least / NM:.1f} NM"
 
 
 def promise_sentence(joins_in: Second, was_in: Second) -> str:

@@ -12,6 +12,7 @@ from relguide.flying.guidance.announcements import (
     UnableReason,
     UnableTo,
     expectation,
+    past_slot,
     reason_sentence,
     summary,
 )
@@ -68,7 +69,8 @@ def fly_proposal(
     )
     joins = committed.joins_at(committed.forecast)
     why = reason_sentence(reason, belief, memory.because)
-    text = f"{why}: {summary(shown, joins - belief.t)}."
+    then = past_slot(committed.forecast, belief, assignment)
+    text = f"{why}: {summary(shown, joins - belief.t)}{then}."
     said = NewPlan(
         committed=committed, shown=shown, reason=reason, message=text, announced=announced
     )
@@ -146,9 +148,11 @@ def announce_pending(
     if committed is None or reason is None or not may_speak(memory, belief, assignment):
         return memory, []
     shown = shown_rest(committed, belief, assignment)
-    joins = committed.joins_at(memory.forecast or committed.forecast)
+    ahead = memory.forecast or committed.forecast
+    joins = committed.joins_at(ahead)
     why = reason_sentence(reason, belief, memory.because)
-    text = f"{why}: {summary(shown, joins - belief.t)}."
+    then = past_slot(ahead, belief, assignment)
+    text = f"{why}: {summary(shown, joins - belief.t)}{then}."
     said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
     pause = assignment.settings.announce_after
     memory = memory._replace(fallbacks=memory.fallbacks + committed.plan.fell_back)

@@ -9,6 +9,7 @@ from relguide.flying.guidance.announcements import (
     PlanReason,
     ProposedPlan,
     UnableTo,
+    past_slot,
     summary,
 )
 from relguide.flying.guidance.assignment import Assignment
@@ -174,11 +175,12 @@ def _say_proposal(
     """
     shown = found.shown
     joins = found.committed.joins_at(found.committed.forecast)
+    then = past_slot(found.committed.forecast, belief, assignment)
     said: list[Event] = [
         ProposedPlan(
             committed=found.committed,
             shown=shown,
-            message=f"Proposed: {summary(shown, joins - belief.t)}.",
+            message=f"Proposed: {summary(shown, joins - belief.t)}{then}.",
         )
     ]
     how = _how_changed(memory, belief, assignment, found)

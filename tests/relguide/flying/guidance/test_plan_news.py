@@ -1,12 +1,14 @@
 """What a crew is told of plans: what is news, once, when the leader has settled; all is kept."""
 
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 import pytest
 
-from relguide.flying.documents import LeaderChanged, PlanChanged, PromiseChanged
-from relguide.flying.flight import IntentKnown, LeaderHeading, LeaderSpeed, Scenario
+from relguide.contract.orders import Order, commands_of
+from relguide.flying.documents import LeaderChanged, PlanChanged, PlanProposed, PromiseChanged
+from relguide.flying.engagement import Engagement
+from relguide.flying.flight import IntentKnown, LeaderHeading, LeaderSpeed, Scenario, fly
 from relguide.flying.guidance.announcements import (
     Expectation,
     leader_change,
@@ -16,9 +18,10 @@ from relguide.flying.guidance.announcements import (
 from relguide.flying.guidance.commit.proposal import Proposal
 from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.settings import DEFAULT
-from relguide.flying.scenarios import fig_6, own_scenario
+from relguide.flying.orders import PursuerSpeed
+from relguide.flying.scenarios import fig_6, own_scenario, scenario
 from relguide.planning.plan import plan
-from relguide.units import DEG, KT
+from relguide.units import DEG, KT, NM
 from tests.flights import Flown, fly_whole, random_start
 from tests.relguide.flying.guidance.beliefs import FIG_6B, behind, observe
 
@@ -175,6 +178,22 @@ def test_a_heading_across_north_is_a_small_change() -> None:
     assert leader_change(one, other, DEFAULT.leader_turned, DEFAULT.leader_speed) is None
     received = leader_change(replace(WAS, intent_known=False), WAS, 1.0, 1.0)
     assert received == "intent_received"
+
+
+@pytest.mark.parametrize("engagement", ["engaged", "designated"])
+def test_a_plan_says_what_a_selected_speed_leads_to_past_the_slot(engagement: Engagement) -> None:
+    """It keeps 5.4 NM up to the slot; the forecast, which goes on at 467 kt, came to 1.6 NM."""
+    selects = commands_of([Order(20.0, PursuerSpeed(tas=240.0))])
+    flown = fly(
+        scenario("lesson_turn"), plan, engagement=engagement, commands=selects, sample_period=1.0
+    )
+    documents = takewhile(lambda document: document.t < 31.0, flown)
+    plans = [one for one in documents if isinstance(one, PlanChanged | PlanProposed)]
+    before, after = plans[0], plans[-1]
+    assert before.message.endswith(" and keeps 5.4 NM.")
+    assert before.flown_least >= 5.0 * NM > after.flown_least
+    then = f"; then 467 kt would lead to {after.flown_least / NM:.1f} NM."
+    assert after.message.endswith(f" and keeps 5.4 NM{then}")
 
 
 def test_sentences_say_why_and_what_comes() -> None:
