@@ -253,11 +253,7 @@ def _cause(one: Pursuit, t: Second) -> str:
     """Why separation was lost, in a sentence."""
     if t - one.view.changed_at < RECENT and one.view.changed:
         return one.view.changed
-    if one.memory.forecast is None:
-        return "Nothing looked ahead."
-    if one.memory.mode in ("heading", "escape"):
-        return "There was no path that kept it."
-    return "What was flown is not what was forecast."
+    return _own_cause(one)
 
 
 def _cause_of_other(one: Pursuit, ident: str) -> str:
@@ -267,6 +263,13 @@ def _cause_of_other(one: Pursuit, ident: str) -> str:
             return f"{ident} broke its word."
         if other.ident == ident and other.turns_unannounced:
             return f"{ident} turned unannounced."
+    return _own_cause(one)
+
+
+def _own_cause(one: Pursuit) -> str:
+    """Why a minimum was lost that no other aircraft broke, in a sentence."""
+    if one.memory.engagement != "engaged":
+        return "Guidance was not engaged: the crew flew."
     if one.memory.forecast is None:
         return "Nothing looked ahead."
     if one.memory.mode in ("heading", "escape"):

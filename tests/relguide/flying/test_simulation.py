@@ -133,6 +133,13 @@ def test_a_loss_is_a_document_with_its_place_cause_and_announcement() -> None:
     assert loss.separation == flight.result.least_separation == pytest.approx(least, abs=30.0)
 
 
+def test_a_loss_while_guidance_is_not_engaged_is_the_crews() -> None:
+    """It said that there was no path, which guidance had not looked for."""
+    documents = fly(head_on(), plan, engagement="off", sample_period=1.0)
+    lost = next(document for document in documents if isinstance(document, SeparationLost))
+    assert lost.cause == "Guidance was not engaged: the crew flew."
+
+
 def test_the_least_separation_so_far_knows_nothing_of_what_comes() -> None:
     """Each second is flown as a whole, and then shown piece by piece."""
     least = np.inf
