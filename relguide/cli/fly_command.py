@@ -154,7 +154,7 @@ def run(chosen: argparse.Namespace) -> int:
 
     if chosen.sample_rate is not None and chosen.record is None:
         raise ValueError("--sample-rate is for a recording: add --record FILE.")
-    orders, script, engagement, seed, recorded = read_ordered(
+    orders, script, engagement, seed, recorded, by_pilot = read_ordered(
         chosen.scenario, chosen.orders, chosen.crew, chosen.seed
     )
     scenario = _scenario(chosen.scenario, seed, chosen.callsign)
@@ -170,6 +170,9 @@ def run(chosen: argparse.Namespace) -> int:
     expect_flying(orders, script, world_of(scenario))
     if recorded not in ("", scenario.name):
         say(f"{chosen.orders} is a flight of {recorded}, not of {scenario.name}: this is another.")
+    if recorded and by_pilot != (scenario.by_hand is not None):
+        was, asked = ("was", "without") if by_pilot else ("was not", "with")
+        say(f"{chosen.orders} {was} flown by a pilot model: {asked} --director this is another.")
     settings = DEFAULT if chosen.settings is None else load_settings(chosen.settings)
     planner = make_planner(chosen.planner)
     flown = partial(

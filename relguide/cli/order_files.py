@@ -19,6 +19,8 @@ class Ordered(NamedTuple):
     seed: int
     recorded: str = ""
     """The name of what a recording that gives the orders has flown; empty for other orders."""
+    by_pilot: bool = False
+    """Whether a modelled pilot flew that by hand."""
 
 
 def read_ordered(flown: str, orders: str | None, crew: str | None, seed: int | None) -> Ordered:
@@ -43,7 +45,8 @@ def read_ordered(flown: str, orders: str | None, crew: str | None, seed: int | N
         if orders.endswith((".jsonl", ".jsonl.gz")) and is_recording(orders):
             again = flown_again(replay(orders))
             taken = again.seed if seed is None else seed
-            ordered = Ordered(again.orders, (), again.engagement, taken, again.scenario)
+            began = again.engagement
+            ordered = Ordered(again.orders, (), began, taken, again.scenario, again.by_pilot)
         else:
             with open_input(orders) as stream:
                 ordered = ordered._replace(orders=read_orders(stream, _name(orders)))

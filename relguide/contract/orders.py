@@ -23,13 +23,14 @@ from relguide.contract.order_lines import LeaderLine, OrderLine
 from relguide.contract.refusal import ContractError, loads, parse
 from relguide.flying.documents import (
     CommandGiven,
+    ControlChanged,
     Document,
     EngagementChanged,
     FlightStarted,
     Sample,
 )
 from relguide.flying.engagement import Engagement
-from relguide.flying.orders import Command, order_fault
+from relguide.flying.orders import Command, SetDirector, order_fault
 from relguide.flying.scripted_crew import CrewOrder
 from relguide.flying.world import World
 from relguide.planning.inputs import expect
@@ -64,6 +65,8 @@ class FlownAgain(NamedTuple):
     seed: int
     scenario: str
     """The name of what was flown."""
+    by_pilot: bool = False
+    """Whether a modelled pilot flew it by hand."""
 
 
 def read_orders(stream: IO[bytes], name: str) -> tuple[Order, ...]:
@@ -150,6 +153,7 @@ def flown_again(documents: Iterable[Document]) -> FlownAgain:
     orders: list[Order] = []
     seed, first, scenario = -1, "", ""
     engaged: list[Engagement] = []
+    bars: list[bool] = []  # at the start they are on only where a pilot is modelled
     for document in documents:
         match document:
             case FlightStarted():
@@ -157,13 +161,19 @@ def flown_again(documents: Iterable[Document]) -> FlownAgain:
                 first = next((link.pursuer for link in document.links), "")
             case CommandGiven():
                 orders.append(Order(document.t, document.command))
+                bars += [False] if isinstance(document.command, SetDirector) else []
+            case ControlChanged(ident=ident, director=director) if ident == first:
+                bars.append(director)
             case EngagementChanged(ident=ident, previous=previous) if ident == first:
                 engaged.append(previous)
             case Sample(guidance=guidance):
                 engaged += [one.engagement for one in guidance[:1]]
+                bars += [one.director for one in guidance[:1]]
     if seed < 0:
         raise ValueError("The recording lacks its beginning, so it cannot be flown again.")
-    return FlownAgain(tuple(orders), engaged[0] if engaged else "engaged", seed, scenario)
+    return FlownAgain(
+        tuple(orders), engaged[0] if engaged else "engaged", seed, scenario, bars[:1] == [True]
+    )
 
 
 def commands_of(orders: Sequence[Order]) -> Callable[[Second], Iterable[Command]]:

@@ -146,7 +146,7 @@ def assert_flown_again(
     urlopen(Request(f"{sky.url}/api/v1/flights/{flight}", method="DELETE")).close()
     with urlopen(f"{sky.url}/api/v1/records/flights/{flight}/export?format=jsonl") as answer:
         file.write_bytes(answer.read())
-    orders, engagement, seed, _ = flown_again(replay(file))
+    orders, engagement, seed, *_ = flown_again(replay(file))
     assert sum(isinstance(order.command, Stick) for order in orders) >= sticks
     until = max(heard)
     again: Heard = {}

@@ -362,6 +362,20 @@ def test_a_crew_flies_all_steps_and_its_recording_is_flown_again_alike(run: Run)
     assert (code, "a.jsonl, line 1: This must have one of engagement" in err) == (2, True)
 
 
+@pytest.mark.slow
+def test_a_recording_by_a_pilot_model_is_flown_again_by_one_or_another_is_said(run: Run) -> None:
+    own = write(NEAR)
+    assert run("fly", own, "--director", "--record", "a.jsonl")[0] == 0
+    _, _, err = run("fly", own, "--orders", "a.jsonl", "--record", "b.jsonl")
+    said = "a.jsonl was flown by a pilot model: without --director this is another.\n"
+    assert err == f"relguide: {said}"
+    _, _, err = run("fly", own, "--orders", "a.jsonl", "--director", "--record", "c.jsonl")
+    assert (err, timeless("c.jsonl")) == ("", timeless("a.jsonl"))
+    _, _, err = run("fly", own, "--orders", "b.jsonl", "--director")
+    said = "b.jsonl was not flown by a pilot model: with --director this is another.\n"
+    assert err == f"relguide: {said}"
+
+
 def timeless(file: str) -> list[str]:
     """The lines of a recording without what plans took to compute."""
     return [sub(r'"compute_ms":[^,}]*', "", line) for line in Path(file).read_text().splitlines()]

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
 from io import BytesIO
-from itertools import takewhile
+from itertools import islice, takewhile
 from math import pi, radians
 from pathlib import Path
 from typing import Any
@@ -44,6 +44,7 @@ from relguide.flying.orders import (
     SetSpacing,
     Stick,
 )
+from relguide.flying.pilot_model import PilotModel
 from relguide.flying.scenarios import fig_6
 from relguide.flying.scripted_crew import CrewOrder, begun
 from relguide.planning.plan import plan
@@ -274,6 +275,26 @@ def test_a_recording_says_how_its_flight_began_and_orders_are_none(tmp_path: Pat
     for other in (ORDERS, b"", b"\xff", b"[]"):
         file.write_bytes(other)
         assert not is_recording(file)
+
+
+@pytest.mark.parametrize("pilot", [None, PilotModel()])
+@pytest.mark.parametrize(
+    "given",
+    [
+        (),
+        (SetAutopilot(on=False), SetDirector(on=True)),
+        (SetDirector(on=True), SetAutopilot(on=False)),
+        (SetAutopilot(on=True),),
+    ],
+)
+def test_a_recording_says_whether_a_pilot_model_flew_whatever_was_ordered_at_once(
+    given: tuple[CrewCommand, ...], pilot: PilotModel | None
+) -> None:
+    commands = commands_of([Order(0.0, command) for command in given])
+    flight = replace(fig_6(intent_known=True), by_hand=pilot)
+    flown = islice(fly(flight, plan, commands=commands, sample_period=1.0), 12)
+    unsaid = given[:1] == (SetDirector(on=True),)  # its order could have put the bars on as well
+    assert flown_again(flown).by_pilot == (pilot is not None and not unsaid)
 
 
 @pytest.mark.parametrize(
