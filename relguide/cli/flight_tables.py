@@ -112,7 +112,7 @@ def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
             "joined": f"after {clock(figures['join_time_s'])}" if figures["joined"] else "no",
             "planned at engagement": clock(figures["planned_time_s"]),
             "promised at engagement": clock(figures["promised_s"]),
-            "over the optimum": _over_optimum(figures["over_optimum_s"]),
+            "over the optimum": _over_optimum(figures["over_optimum_s"], figures["joined"]),
             "least separation": miles(figures["least_separation_m"]),
             "separation lost": _losses(figures["losses"]),
             "heading swing": f"{figures['heading_swing_deg']:.0f}°",
@@ -132,9 +132,11 @@ def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
     return rows
 
 
-def _over_optimum(seconds: float | None) -> str:
+def _over_optimum(seconds: float | None, joined: bool) -> str:
+    if not joined:
+        return "not joined"
     if seconds is None:
-        return "not known: no plan from the start reaches the slot"
+        return "not known: no plan from the start, or a recorded leader"
     return f"{abs(seconds):.0f} s {'sooner' if seconds < 0.0 else 'later'}"
 
 

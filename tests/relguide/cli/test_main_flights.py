@@ -12,12 +12,13 @@ import pytest
 
 from relguide.cli.flight_tables import print_flight
 from relguide.cli.situation_file import read_flight
-from relguide.contract.flight_summary import summarize
+from relguide.contract.flight_summary import figures, summarize
 from relguide.contract.recorder import replay
 from relguide.flying.dispersion import disperse_pilot
 from relguide.flying.documents import (
     AssignmentChanged,
     EngagementChanged,
+    FlightEnded,
     FlightStarted,
     LeaderChanged,
     Sample,
@@ -28,6 +29,7 @@ from relguide.flying.scenarios import SCENARIOS
 from relguide.planning.plan import plan
 from relguide.units import DEG
 from tests.command_line import NEAR, UNREACHABLE, Run, process, write
+from tests.server.flown import ideal_flight
 
 CREW = str(Path(__file__).parents[3] / "examples" / "crew.jsonl")
 FIGURES = {
@@ -124,6 +126,30 @@ def test_what_the_crew_engages_is_a_row_of_the_table(capsys: pytest.CaptureFixtu
     print_flight(summarize([said]), {"simulated_s": 65.0})
     (row,) = [line for line in capsys.readouterr().out.splitlines() if "designated" in line]
     assert row.split() == ["1:05.0", "designated", "LDR", "is", "designated."]
+
+
+@pytest.mark.parametrize(
+    ("result", "said"),
+    [
+        ({"joined": False, "join_time": 65.0}, "not joined"),
+        (
+            {"joined": True, "optimum": 0.0},
+            "not known: no plan from the start, or a recorded leader",
+        ),
+        ({"joined": True, "optimum": 50.0, "join_time": 57.0}, "7 s later"),
+    ],
+)
+def test_a_flight_is_over_the_optimum_only_where_it_joined(
+    result: dict[str, Any], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Of a flight that had a plan and did not join, it said that no plan reaches the slot."""
+    *_, ended = ideal_flight()
+    assert isinstance(ended, FlightEnded)
+    first = replace(ended.results[0], **result)
+    flight = summarize([replace(ended, results=(first,))])
+    print_flight(flight, figures(flight) | {"plans_by": flight.plans_by})
+    (row,) = [line for line in capsys.readouterr().out.splitlines() if "over the optimum" in line]
+    assert row.removeprefix("over the optimum").strip() == said
 
 
 @pytest.mark.slow
