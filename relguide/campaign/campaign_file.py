@@ -233,6 +233,8 @@ def _script(content: Mapping[str, Any]) -> tuple[Mapping[str, Any], ...]:
     orders = content.get("crew", [])
     if not isinstance(orders, list) or not all(isinstance(order, Mapping) for order in orders):
         raise ValueError("crew must be a list of tables: write [[crew]] before each order.")
+    if "crew" in content and not orders:
+        raise ValueError("crew is empty, and a crew's script has one order or more: leave it out.")
     return tuple(orders)
 
 

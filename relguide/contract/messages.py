@@ -112,8 +112,17 @@ class _HowToFly(Strict):
     """What aircraft are ordered at flight times, in order of time: at most 36,000 sticks, an hour
     of flying by hand, and at most 1,000 others."""
     crew: Annotated[list[CrewOrderLine] | None, Field(max_length=MAX_ORDERS)] = None
-    """The script of a crew that reacts. Guidance is off at the start, unless `engagement` or the
-    first line, an engagement at 0 s, says otherwise."""
+    """The script of a crew that reacts; its lines with `t_s` are in order of time. Guidance is off
+    at the start, unless `engagement` or the first line, an engagement at 0 s, says otherwise."""
+
+    @field_validator("crew")
+    @classmethod
+    def _expect_an_order(cls, lines: list[Any] | None) -> list[Any] | None:
+        if lines == []:
+            raise ValueError(
+                "must have an order or more, not none: leave it out, and give engagement."
+            )
+        return lines
 
     @field_validator("orders", mode="before")
     @classmethod

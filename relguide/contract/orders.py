@@ -101,10 +101,14 @@ def order_of(line: LeaderLine | CrewLine, before: Second = 0.0) -> Order:
     if line.t_s is None:
         said = "waits for a cue, which only a crew's script has: give t_s."
         raise ContractError([("on", said)])
-    if line.t_s < before:
-        said = f"must be at least {before:.12g}, that of the order before, not {line.t_s:.12g}."
+    return Order(_in_order(line.t_s, before), line.command())
+
+
+def _in_order(t: Second, before: Second) -> Second:
+    if t < before:
+        said = f"must be at least {before:.12g}, that of the order before, not {t:.12g}."
         raise ContractError([("t_s", said)])
-    return Order(line.t_s, line.command())
+    return t
 
 
 def read_crew(stream: IO[bytes], name: str) -> tuple[CrewOrder, ...]:
@@ -115,15 +119,33 @@ def read_crew(stream: IO[bytes], name: str) -> tuple[CrewOrder, ...]:
         name: what the reader knows it by, for messages.
 
     Raises:
-        ValueError: naming the first line that is no order of a crew, and what would be right.
+        ValueError: naming the first line that is no order of a crew, and what would be right; or
+            if there is no order at all.
     """
-    return tuple(crew_order(body.root) for _, body in _bodies(stream, name, CrewOrderBody))
+    script, before = list[CrewOrder](), 0.0
+    for where, body in _bodies(stream, name, CrewOrderBody):
+        try:
+            script.append(crew_order(body.root, before))
+        except ContractError as error:
+            raise ValueError(f"{where}: {error}") from None
+        before = body.root.t_s or before
+    if not script:
+        raise ValueError(f"{name}: It is empty, and a crew's script has one order or more.")
+    return tuple(script)
 
 
-def crew_order(line: CrewLine) -> CrewOrder:
-    """What a line of a crew's script says."""
+def crew_order(line: CrewLine, before: Second = 0.0) -> CrewOrder:
+    """What a line of a crew's script says.
+
+    Args:
+        line: as it was read.
+        before: time of the last order before it that waits for no cue.
+
+    Raises:
+        ContractError: if it comes before that one.
+    """
     if line.on is None:
-        return CrewOrder(command=line.command(), after=line.t_s)
+        return CrewOrder(command=line.command(), after=_in_order(line.t_s, before))
     return CrewOrder(command=line.command(), on=line.on, after=line.after_s)
 
 
@@ -134,13 +156,14 @@ def crew_of(script: Sequence[Mapping[str, Any]]) -> tuple[CrewOrder, ...]:
         ValueError: naming the first that is no order of a crew, and what would be right.
     """
     expect("crew", script, list, tuple)
-    orders = list[CrewOrder]()
+    orders, before = list[CrewOrder](), 0.0
     for number, order in enumerate(script, start=1):
         try:
-            read = dict(order) if isinstance(order, Mapping) else None
-            orders.append(crew_order(parse(CrewOrderBody, read).root))
+            line = parse(CrewOrderBody, dict(order) if isinstance(order, Mapping) else None).root
+            orders.append(crew_order(line, before))
         except ContractError as error:
             raise ValueError(f"crew, order {number}: {error}") from None
+        before = line.t_s or before
     return tuple(orders)
 
 

@@ -43,7 +43,7 @@ def obey_hands(one: Pursuit, order: Order, fleet: Fleet, t: Second) -> Iterator[
                     fleet.take_stick(one.pursuer)
             yield _said(one, t, why or ("The autopilot flies." if on else "You have control."))
         case SetDirector(on=False) if fleet.has_pilot(one.pursuer):
-            yield _said(one, t, "A modelled pilot flies along the bars: they stay on.")
+            yield _said(one, t, "A modelled pilot needs the bars: they stay on.")
         case SetDirector(on=on):
             one.director = on
             yield _said(one, t, f"The flight director is {'on' if on else 'off'}.")

@@ -1,10 +1,10 @@
 """From a request for a flight to the scenario that it asks for."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
-from relguide.contract.crew_lines import StickOrder
+from relguide.contract.crew_lines import CrewLine, StickOrder
 from relguide.contract.flown_bodies import scenario_from_body
 from relguide.contract.intent_bodies import intent_from_body
 from relguide.contract.messages import (
@@ -13,6 +13,7 @@ from relguide.contract.messages import (
     ScenarioFlightRequest,
     SituationFlightRequest,
 )
+from relguide.contract.order_lines import LeaderLine
 from relguide.contract.orders import Order, crew_order, fault_in, order_of
 from relguide.contract.pilot_bodies import pilot_of
 from relguide.contract.places import UNANCHORED, Anchor
@@ -25,6 +26,10 @@ from relguide.flying.scripted_crew import CrewOrder, begun
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.intent import IntentPiece
 from relguide.planning.situation import Situation
+from relguide.units import Second
+
+Line = TypeVar("Line", bound=LeaderLine | CrewLine)
+Given = TypeVar("Given")
 
 
 class Ordered(NamedTuple):
@@ -68,20 +73,29 @@ def ordered_in(wanted: FlightRequest, found: Scenario) -> Ordered:
     Raises:
         ContractError: for the first order that cannot be given.
     """
-    orders: list[Order] = []
-    for index, line in enumerate(wanted.orders):
-        try:
-            orders.append(order_of(line, orders[-1].t if orders else 0.0))
-        except ContractError as error:
-            (path, said), *_ = error.problems
-            raise ContractError([(f"orders[{index}].{path}", said)]) from None
-    lines = tuple(map(crew_order, wanted.crew or ()))
+    orders = _in_order("orders", wanted.orders, order_of)
+    lines = _in_order("crew", wanted.crew or (), crew_order)
     _expect_flying("orders", [order.command for order in orders], found)
     _expect_flying("crew", [line.command for line in lines], found)
     begins, script = begun(lines)
     if wanted.crew is None or "engagement" in wanted.model_fields_set:
         begins = wanted.engagement
-    return Ordered(tuple(orders), script, begins)
+    return Ordered(orders, script, begins)
+
+
+def _in_order(
+    name: str, lines: Sequence[Line], read: Callable[[Line, Second], Given]
+) -> tuple[Given, ...]:
+    """What lines order, each read with the time of the one before."""
+    found, before = list[Given](), 0.0
+    for index, line in enumerate(lines):
+        try:
+            found.append(read(line, before))
+        except ContractError as error:
+            (path, said), *_ = error.problems
+            raise ContractError([(f"{name}[{index}].{path}", said)]) from None
+        before = line.t_s or before
+    return tuple(found)
 
 
 def kept_request(wanted: FlightRequest) -> str:

@@ -147,6 +147,11 @@ def test_a_crew_is_read_as_its_script_and_written_back() -> None:
         ([CREW[0], {"t_s": 1.0, "leader_tas_mps": 200.0}], "crew, order 2: "),
         ({"t_s": 0.0}, "crew must be a list of tables"),
         ([3], "crew must be a list of tables"),
+        ([], r"crew is empty, and a crew's script has one order or more: leave it out\."),
+        (
+            [*CREW, {"t_s": 5.0, "director": True}, {"t_s": 4.0, "director": True}],
+            r"crew, order 5: t_s: must be at least 5, that of the order before, not 4\.",
+        ),
     ],
 )
 def test_what_is_no_script_is_refused(crew: object, said: str) -> None:

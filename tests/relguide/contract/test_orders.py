@@ -192,6 +192,26 @@ def test_a_line_of_a_script_that_is_no_crews_order_is_named(line: str, sentence:
     assert str(caught.value).removeprefix("a, line 2: ").startswith(sentence)
 
 
+def test_a_script_is_in_order_of_time_where_it_waits_for_no_cue() -> None:
+    """It was sorted without a word."""
+    later, cued = b'{"t_s": 9, "director": true}\n', b'{"on": "armed", "director": true}\n'
+    assert [one.on for one in read_crew(BytesIO(later + cued + later), "a")] == [
+        "start",
+        "armed",
+        "start",
+    ]
+    said = r"^a, line 3: t_s: must be at least 9, that of the order before, not 8\.$"
+    with pytest.raises(ValueError, match=said):
+        read_crew(BytesIO(later + cued + b'{"t_s": 8, "director": true}\n'), "a")
+
+
+@pytest.mark.parametrize("text", [b"", b"\n \n"])
+def test_an_empty_script_is_refused(text: bytes) -> None:
+    """An hour was flown with guidance off, without a word."""
+    with pytest.raises(ValueError, match=r"^a: It is empty, and a crew's script has one order or"):
+        read_crew(BytesIO(text), "a")
+
+
 def test_a_crew_may_wait_for_any_of_its_cues_and_no_other() -> None:
     with pytest.raises(ValueError, match=r"^a, line 1: on: must be 'start', .* or 'alert', not "):
         read_crew(BytesIO(b'{"on": "arm", "director": true}'), "a")

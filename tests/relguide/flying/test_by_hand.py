@@ -266,7 +266,7 @@ def test_a_modelled_pilot_keeps_its_stick_and_its_bars() -> None:
     assert banks(documents) == banks(flown((), 20.0, flight=flight))
     assert said(documents) == [
         "A modelled pilot flies: it alone moves the stick.",
-        "A modelled pilot flies along the bars: they stay on.",
+        "A modelled pilot needs the bars: they stay on.",
     ]
     assert samples(documents)[-1].guidance[0].bars
 

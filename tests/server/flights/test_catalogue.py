@@ -79,7 +79,7 @@ def test_a_crew_is_asked_for_with_the_flight_and_begins_as_it_says() -> None:
         ({}, "engaged", []),
         ({"orders": orders}, "engaged", [2.0]),
         ({"crew": crew, "orders": orders}, "off", [1.0, 2.0]),
-        ({"crew": []}, "off", []),
+        ({"engagement": "off"}, "off", []),
         ({"crew": [begins]}, "engaged", []),
         ({"crew": crew, "engagement": "armed"}, "armed", [1.0]),
     ):

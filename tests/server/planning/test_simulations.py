@@ -126,6 +126,8 @@ def test_a_crew_that_reacts_and_a_pilot_model_fly_as_by_the_command(client: Test
         ({"by_hand": 1}, "by_hand"),
         ({"by_hand": {"delay_s": 2.0}}, "by_hand.delay_s"),
         ({"by_hand": {"delay": 0.3}}, "by_hand.delay"),
+        ({"crew": []}, "crew"),
+        ({"crew": [{"t_s": 9, "director": True}, {"t_s": 8, "director": True}]}, "crew[1].t_s"),
         ({"crew": [{"engagement": "armed"}]}, "crew[0]"),
         ({"crew": [{"t_s": 1, "intent_known": True}]}, "crew[0]"),
         ({"crew": [{"t_s": 1, "engagement": "on"}]}, "crew[0].engagement"),
