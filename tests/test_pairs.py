@@ -67,13 +67,17 @@ def test_ours_takes_the_followers_place(found: dict[tuple[str, str], Pair]) -> N
     assert outcome.joined == (not outcome.reason)
 
 
-def test_why_a_flight_flies_no_plan_is_what_ended_its_last_one() -> None:
-    """Not what is said later of the heading that is held meanwhile, nor what a new plan ended."""
-    first, second, third = (
-        Unable(t=t, ident="PURSUER", reason="separation", message=f"At {t:.0f} s.")
-        for t in (10.0, 30.0, 50.0)
+def test_why_a_flight_flies_no_plan_is_what_was_said_last_since_its_last_one() -> None:
+    """Not what is said of the heading that is held meanwhile, nor what a new plan ended."""
+    near, slow, turns = (
+        Unable(t=t, ident="PURSUER", reason="separation", message=message)
+        for t, message in (
+            (10.0, "Unable: What is flown would come within 4.70 NM of the leader."),
+            (30.0, "Unable to follow: the leader flies 146 kt."),
+            (50.0, "Turning to 192°, to keep clear of the leader."),
+        )
     )
     (planned,) = fly_whole(replace(FIG_6B, duration_limit=1.0)).of(PlanChanged)
     assert unable_at_the_end([planned]) is None
-    assert unable_at_the_end([planned, first, planned]) is None
-    assert unable_at_the_end([planned, first, planned, second, third]) is second
+    assert unable_at_the_end([planned, near, planned]) is None
+    assert unable_at_the_end([planned, near, planned, near, slow, turns]) is slow
