@@ -52,7 +52,9 @@ def obey_tasks(
             yield _changed(one, t, f"{_stays(one, order)} {answer}")
             continue
         one.link, one.assignment, (one.memory, events) = link, asked, answer
-        one.flown = replace(one.flown, slot_distance=asked.slot_distance)
+        one.flown = replace(
+            one.flown, slot_distance=asked.slot_distance, min_separation=asked.min_separation
+        )
         yield _changed(one, t, f"{_said(order, asked, link)}.")
         for event in events:
             document = event_document(t, one.watched, event)

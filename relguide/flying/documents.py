@@ -330,7 +330,7 @@ class Alert:
     predicted_least: Metre
     """Least separation from the other ahead, flying on as now [m]."""
     predicted_at: Second
-    """Flight time of it [s]."""
+    """Flight time at which the minimum is lost or, where it is kept, the least comes [s]."""
     cleared: bool
     """Whether the alert ends: nothing stands on this subject any more."""
     kind: Literal["alert"] = "alert"

@@ -60,6 +60,10 @@ def count_event(metrics: FlightMetrics, document: Document, leader: str) -> Flig
             return metrics._replace(alerted=())
         case Alert(t=t, subject="separation", level="caution" | "warning"):
             return metrics._replace(alerted=metrics.alerted or (t,))
+        case Alert(subject="data", cleared=True):
+            return metrics._replace(unheard=())
+        case Alert(t=t, subject="data"):
+            return metrics._replace(unheard=metrics.unheard or (t,))
         case Unable(t=t):
             return metrics._replace(unable=metrics.unable or (t,))
         case SeparationLost():
@@ -233,7 +237,7 @@ def _loss(
 
 def _announced(metrics: FlightMetrics, other: str, leader: str) -> tuple[Second, ...]:
     """When what stands was said first, alert or `Unable`; empty if nothing stands."""
-    alerted = metrics.alerted
+    alerted = (*metrics.alerted, *metrics.unheard)
     if other != leader:
         alerted = tuple(t for ident, t in metrics.others_alerted if ident == other)
     said = (*alerted, *metrics.unable)

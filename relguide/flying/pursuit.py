@@ -96,6 +96,8 @@ class FlightMetrics(NamedTuple):
     """The same of each of the others, by ident."""
     unable: tuple[Second, ...] = ()
     """When `Unable` was said first since the last plan; empty if it was not."""
+    unheard: tuple[Second, ...] = ()
+    """When it was said that nothing is heard of the leader; empty while it is heard."""
     losses: tuple[Loss, ...] = ()
     along_error: Metre = 0.0
     """Largest along the route while it followed."""

@@ -35,6 +35,7 @@ from relguide.flying.guidance.monitor import (
     Outlook,
     highest,
     is_as_forecast,
+    judge_data,
     judge_others,
     judge_separation,
     look_out,
@@ -110,12 +111,15 @@ def advise(
     flown = look_out_by_hand(outlook, belief, assignment)
     alert, said = judge_separation(memory.alert, flown, belief, assignment)
     standing, of_others = judge_others(memory.others, flown, belief, assignment)
-    memory = memory._replace(alert=alert, others=standing, forecast=outlook.forecast)
+    unheard, of_data = judge_data(memory.unheard, belief, assignment)
+    memory = memory._replace(
+        alert=alert, others=standing, unheard=unheard, forecast=outlook.forecast
+    )
     memory, news = promise_anew(memory, belief, assignment)
     events += news
     memory, news = judge_spacing(memory, belief, assignment, done, outlook)
     events += news
-    return memory, _advice(memory, belief, assignment, done, (*events, *said, *of_others))
+    return memory, _advice(memory, belief, assignment, done, (*events, *said, *of_data, *of_others))
 
 
 def _act(memory: Memory, belief: Belief, assignment: Assignment) -> Act:
@@ -198,7 +202,7 @@ def _advice(
         across=done.right,
         time_to_go=go,
         joined=done.joined,
-        alert=highest(memory.alert, *(alert for _, alert in memory.others)),
+        alert=highest(memory.alert, memory.unheard, *(alert for _, alert in memory.others)),
         forecast=ahead,
         events=events,
     )

@@ -124,7 +124,7 @@ class Alerted:
     message: str
     predicted_least: Metre
     predicted_at: Second
-    """Flight time [s]."""
+    """When the minimum is lost or, where it is kept, the least comes, flight time [s]."""
     cleared: bool
     ident: str = ""
     """Of the aircraft or cell that it is about; empty for the leader."""

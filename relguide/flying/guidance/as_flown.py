@@ -41,7 +41,8 @@ def look_out_by_hand(outlook: Outlook, belief: Belief, assignment: Assignment) -
     if least < min(limit, outlook.least):
         late = escape(belief, assignment, limit, delay=REACTS_IN)
         if late.least_separation < limit:
-            outlook = outlook._replace(least=least, at=at)
+            breaks = min(outlook.breaks, ahead.breaks(belief.t, limit))
+            outlook = outlook._replace(least=least, at=at, breaks=breaks)
     near = {
         other.ident: other
         for other in nearings(ahead, belief, assignment)

@@ -81,6 +81,12 @@ class Forecast(NamedTuple):
         k = int(np.argmin(rows[:, LEAST]))
         return float(rows[k, LEAST]), float(rows[k, AT])
 
+    def breaks(self, t: Second, limit: Metre) -> Second:
+        """From when on after flight time t it is below a separation, flight time; else infinite."""
+        first = max(int(t - self.t), 0)
+        below = np.flatnonzero(self.account[first:, LEAST] < limit)
+        return self.t + first + float(below[0]) if len(below) else inf
+
     def nearest(self, t: Second) -> Metre:
         """The same, and where height keeps them apart all the while, the distance all the same."""
         least, _ = self.least(t)

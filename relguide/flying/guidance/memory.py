@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from relguide.flying.belief import Belief
 from relguide.flying.engagement import Engagement
+from relguide.flying.guidance.amid import Nearing
 from relguide.flying.guidance.announcements import (
     AlertState,
     Event,
@@ -136,8 +137,10 @@ class Memory(NamedTuple):
     """How often an exact plan took the place of the planner's, for whatever reason."""
     refused: Fault | None
     """What was wrong with the planner's last plan; `None` if it could be flown."""
-    others: tuple[tuple[str, StandingAlert], ...] = ()
-    """The alerts that stand on others, by ident."""
+    others: tuple[tuple[Nearing, StandingAlert], ...] = ()
+    """The alerts that stand on others, with what was last seen of each."""
+    unheard: StandingAlert = StandingAlert()
+    """That nothing is heard of the leader."""
     avoided: Second = LONG_AGO
     """When a plan was last asked for because another came in the way, flight time [s]."""
     because: str = ""

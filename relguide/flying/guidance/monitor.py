@@ -40,6 +40,8 @@ class Outlook(NamedTuple):
     """Least separation, over all that is reckoned with [m]."""
     at: Second
     """When, flight time [s]."""
+    breaks: Second
+    """When d_min is lost first, flight time [s]; infinite if it is kept."""
     others: tuple[Nearing, ...] = ()
     """How near it comes to each of the others, the least spare first."""
 
@@ -106,6 +108,7 @@ def look_out(
     if ahead is None:
         ahead = forecast(belief, assignment, progress, course, until=until)
     least, at = ahead.rest(belief.t), belief.t
+    breaks = ahead.breaks(belief.t, assignment.min_separation)
     if least < assignment.min_separation:
         least, at = ahead.least(belief.t, settings.watch)
     if turns_on or trend != 0.0:
@@ -119,9 +122,10 @@ def look_out(
             leader_tas=max(belief.leader.tas + trend * settings.speed_goes_on, 1.0),
         )
         other, when = worse.least(belief.t)
+        breaks = min(breaks, worse.breaks(belief.t, assignment.min_separation))
         if other < least:
             least, at = other, when
-    return Outlook(ahead, least, at, nearings(ahead, belief, assignment, turning_on=True))
+    return Outlook(ahead, least, at, breaks, nearings(ahead, belief, assignment, turning_on=True))
 
 
 def judge_separation(
@@ -140,7 +144,7 @@ def judge_separation(
     level: AlertState = "none"
     if belief.counted_separation < limit:
         level = "warning"
-    elif outlook.least < limit and outlook.at - t <= settings.caution:
+    elif outlook.breaks - t <= settings.caution:
         level = "caution"
     alert, step = _next(alert, level, t, settings.clears_after)
     if step is None:
@@ -152,28 +156,61 @@ def judge_separation(
         if step.cleared
         else _sentence(step.level, outlook, apart, t, limit),
         predicted_least=outlook.least if outlook.least < inf else apart,
-        predicted_at=outlook.at,
+        predicted_at=outlook.breaks if outlook.breaks < inf else outlook.at,
+        cleared=step.cleared,
+    )
+    return alert, (said,)
+
+
+def judge_data(
+    alert: StandingAlert, belief: Belief, assignment: Assignment
+) -> tuple[StandingAlert, tuple[Event, ...]]:
+    """The alert that stands while nothing is heard of the leader, in every mode.
+
+    Args:
+        alert: the one of a second ago.
+        belief: gives the age of the data, and the separation as it would be.
+        assignment: gives how old they may be.
+    """
+    old = belief.leader_age > assignment.settings.flies_on_data_of
+    alert, step = _next(alert, "caution" if old else "none", belief.t, 0.0)
+    if step is None:
+        return alert, ()
+    age = belief.leader_age
+    said = Alerted(
+        subject="data",
+        level=step.level,
+        message="The leader is heard again."
+        if step.cleared
+        else f"Nothing was heard of the leader for {age:.0f} s: the separation is not known.",
+        predicted_least=belief.separation,
+        predicted_at=belief.t,
         cleared=step.cleared,
     )
     return alert, (said,)
 
 
 def judge_others(
-    standing: tuple[tuple[str, StandingAlert], ...],
+    standing: tuple[tuple[Nearing, StandingAlert], ...],
     outlook: Outlook,
     belief: Belief,
     assignment: Assignment,
-) -> tuple[tuple[tuple[str, StandingAlert], ...], tuple[Event, ...]]:
+) -> tuple[tuple[tuple[Nearing, StandingAlert], ...], tuple[Event, ...]]:
     """The alerts that stand on others now, and what is said of them.
 
     Args:
-        standing: those of a second ago, by ident.
+        standing: those of a second ago; one that need not be watched any more ends.
         outlook: what lies ahead.
         belief: gives the time.
         assignment: gives how far ahead an alert looks.
     """
-    before, t, settings = dict(standing), belief.t, assignment.settings
-    stand, said = list[tuple[str, StandingAlert]](), list[Event]()
+    t, settings = belief.t, assignment.settings
+    before = {near.ident: alert for near, alert in standing}
+    stand, said = list[tuple[Nearing, StandingAlert]](), list[Event]()
+    watched = {near.ident for near in outlook.others}
+    for near, alert in standing:
+        if near.ident not in watched and alert.level != "none":
+            said.append(_of_other(near, _Step(alert.level, cleared=True), t))
     for near in outlook.others:
         level: AlertState = "none"
         if near.now < near.limit:
@@ -183,22 +220,9 @@ def judge_others(
         was = before.get(near.ident, StandingAlert())
         alert, step = _next(was, level, t, settings.clears_after)
         if alert.level != "none":
-            stand.append((near.ident, alert))
-        if step is None:
-            continue
-        said.append(
-            Alerted(
-                subject="separation",
-                level=step.level,
-                message=f"{near.name}: the separation is kept again."
-                if step.cleared
-                else _other_sentence(step.level, near, t),
-                predicted_least=min(near.least, near.apart),
-                predicted_at=near.at,
-                cleared=step.cleared,
-                ident=near.ident,
-            )
-        )
+            stand.append((near, alert))
+        if step is not None:
+            said.append(_of_other(near, step, t))
     return tuple(stand), tuple(said)
 
 
@@ -230,12 +254,26 @@ def _next(
     return StandingAlert(level, t), None if level == alert.level else _Step(level, False)
 
 
+def _of_other(near: Nearing, step: _Step, t: Second) -> Alerted:
+    return Alerted(
+        subject="separation",
+        level=step.level,
+        message=f"{near.name}: the separation is kept again."
+        if step.cleared
+        else _other_sentence(step.level, near, t),
+        predicted_least=min(near.least, near.apart),
+        predicted_at=near.breaks if near.breaks < inf else near.at,
+        cleared=step.cleared,
+        ident=near.ident,
+    )
+
+
 def _sentence(level: AlertLevel, outlook: Outlook, apart: Metre, t: Second, limit: Metre) -> str:
     if level == "warning":
         return f"Separation: {distance(apart)}, less than {distance(limit)}."
     return (
-        f"Separation in {max(outlook.at - t, 0.0):.0f} s: {distance(outlook.least)}, "
-        f"less than {distance(limit)}."
+        f"Separation in {max(outlook.breaks - t, 0.0):.0f} s: below {distance(limit)}, "
+        f"down to {distance(outlook.least)}."
     )
 
 
@@ -246,6 +284,6 @@ def _other_sentence(level: AlertLevel, near: Nearing, t: Second) -> str:
     if level == "warning":
         return f"{near.name}: {distance(near.now)}, less than {distance(near.limit)}."
     return (
-        f"{near.name} in {max(near.at - t, 0.0):.0f} s: {distance(near.least)}, "
-        f"less than {distance(near.limit)}."
+        f"{near.name} in {max(near.breaks - t, 0.0):.0f} s: below {distance(near.limit)}, "
+        f"down to {distance(near.least)}."
     )

@@ -154,6 +154,12 @@ def test_losses_are_counted_by_the_new_d_min() -> None:
     assert lost.announced
 
 
+def test_d_may_become_less_than_d_min_was_where_both_are_changed() -> None:
+    flight = _flown(20.0, (10.0, SetSpacing(slot_distance=4.0 * NM, min_separation=3.0 * NM)))
+    (changed,) = flight.of(AssignmentChanged)
+    assert (changed.t, changed.message) == (10.0, "D is 4.0 NM, d_min 3.0 NM.")
+
+
 def test_a_proposal_is_made_anew_and_one_that_was_accepted_is_to_be_accepted_again() -> None:
     designated, armed = (
         SetEngagement(engagement="designated"),

@@ -7,6 +7,7 @@ from typing import TypeVar
 import pytest
 
 from relguide.flying.documents import (
+    Alert,
     Document,
     EngagementChanged,
     ModeChanged,
@@ -14,6 +15,7 @@ from relguide.flying.documents import (
     PlanProposed,
     PlanUnavailable,
     Sample,
+    SeparationLost,
     Unable,
 )
 from relguide.flying.engagement import MAY_BECOME, Engagement, refusal
@@ -34,6 +36,7 @@ from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.units import DEG, KT, NM
 from tests.flights import random_start
+from tests.relguide.flying.guidance.beliefs import behind
 
 T = TypeVar("T")
 Orders = dict[float, Command]
@@ -102,6 +105,39 @@ def test_at_off_a_heading_is_held_and_nothing_is_proposed() -> None:
     assert {each.guidance[0].mode for each in of(documents, Sample)} == {"heading"}
     own = [each.aircraft[0] for each in of(documents, Sample)]
     assert own[0].heading == pytest.approx(own[-1].heading, abs=0.1 * DEG)
+
+
+def test_at_off_a_loss_is_announced_a_minute_before_however_late_the_least_comes() -> None:
+    """Overtaking at 30 m/s from 12 km: d_min is lost after 91 s, and the leader met after 400 s."""
+    documents = flown({}, 100.0, flight=behind(along=12_000.0))
+    (lost,), (caution, warning) = of(documents, SeparationLost), of(documents, Alert)
+    assert (caution.level, warning.level) == ("caution", "warning")
+    assert lost.announced == (caution.t,)
+    assert 55.0 < lost.t - caution.t <= 61.0
+    assert caution.predicted_at == pytest.approx(lost.t, abs=1.5)
+    assert caution.message.startswith("Separation in 60 s: below 5.00 NM, down to ")
+
+
+@pytest.mark.parametrize("engagement", ["off", "designated"])
+def test_that_nothing_is_heard_of_the_leader_is_said_and_stands_in_every_mode(
+    engagement: Engagement,
+) -> None:
+    orders: Orders = {10.0: LeaderData(received=False), 40.0: LeaderData(received=True)}
+    documents = flown(orders, 60.0, engagement=engagement)
+    begun, ended = of(documents, Alert)
+    assert (begun.subject, begun.level, begun.cleared, begun.t) == ("data", "caution", False, 21.0)
+    assert begun.message == (
+        "Nothing was heard of the leader for 11 s: the separation is not known."
+    )
+    assert (ended.cleared, ended.message) == (True, "The leader is heard again.")
+    stood = [each.t for each in of(documents, Sample) if each.guidance[0].alert == "caution"]
+    assert stood == [float(t) for t in range(21, int(ended.t))]
+
+
+def test_a_loss_while_nothing_is_heard_counts_as_announced_by_that() -> None:
+    documents = flown({10.0: LeaderData(received=False)}, 100.0, flight=behind(along=12_000.0))
+    (lost,), (said, *_) = of(documents, SeparationLost), of(documents, Alert)
+    assert lost.announced == (said.t,) == (21.0,)
 
 
 def test_from_off_to_engaged_and_back() -> None:

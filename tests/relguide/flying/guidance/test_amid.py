@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from relguide.flying.belief import Belief
-from relguide.flying.guidance.amid import keeps_clear, nearings, others_after
+from relguide.flying.guidance.amid import Nearing, keeps_clear, nearings, others_after
 from relguide.flying.guidance.announcements import Alerted
 from relguide.flying.guidance.escape import escape, kept_on_heading
 from relguide.flying.guidance.forecast import Forecast
+from relguide.flying.guidance.memory import StandingAlert
 from relguide.flying.guidance.monitor import Outlook, judge_others
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.guidance.situations import situation_now
@@ -160,16 +161,16 @@ def test_an_escape_keeps_out_of_weather() -> None:
 
 def judge(*seconds: tuple[float, float]) -> list[tuple[float, str, str, bool]]:
     """What is said of one other, second by second: how far off it is, and will be in 40 s."""
-    standing: tuple[tuple[str, object], ...] = ()
-    said = []
+    standing: tuple[tuple[Nearing, StandingAlert], ...] = ()
+    said: list[tuple[float, str, str, bool]] = []
     for t, (now, least) in enumerate(seconds):
         belief = replace(BELIEF, t=float(t), others=(CROSSING,))
         (near,) = nearings(straight_on(belief), belief, ASSIGNMENT)
         near = near._replace(
             now=now, least=least, at=t + 40.0, breaks=t + 35.0 if least < LIMIT else inf
         )
-        outlook = Outlook(straight_on(belief), inf, belief.t, (near,))
-        standing, events = judge_others(standing, outlook, belief, ASSIGNMENT)  # type: ignore[arg-type]
+        outlook = Outlook(straight_on(belief), inf, belief.t, inf, (near,))
+        standing, events = judge_others(standing, outlook, belief, ASSIGNMENT)
         for event in events:
             assert isinstance(event, Alerted)
             assert event.ident == "BAW12"
@@ -180,7 +181,20 @@ def judge(*seconds: tuple[float, float]) -> list[tuple[float, str, str, bool]]:
 def test_an_alert_on_another_names_it_and_is_cleared() -> None:
     clear, soon, lost = (12_000.0, 11_000.0), (12_000.0, 9_000.0), (9_200.0, 9_000.0)
     assert judge(clear, soon, soon, lost, *[clear] * 5) == [
-        (1.0, "caution", "BAW12 in 40 s: 4.86 NM, less than 5.00 NM.", False),
+        (1.0, "caution", "BAW12 in 35 s: below 5.00 NM, down to 4.86 NM.", False),
         (3.0, "warning", "BAW12: 4.97 NM, less than 5.00 NM.", False),
         (6.0, "warning", "BAW12: the separation is kept again.", True),
     ]
+
+
+def test_the_alert_on_one_that_need_not_be_watched_any_more_ends_and_says_so() -> None:
+    amid = replace(BELIEF, others=(CROSSING,))
+    (near,) = nearings(straight_on(amid), amid, ASSIGNMENT)
+    outlook = Outlook(straight_on(BELIEF), inf, BELIEF.t, inf)
+    standing, (ended,) = judge_others(
+        ((near, StandingAlert("caution", BELIEF.t)),), outlook, BELIEF, ASSIGNMENT
+    )
+    assert standing == ()
+    assert isinstance(ended, Alerted)
+    assert (ended.ident, ended.level, ended.cleared) == ("BAW12", "caution", True)
+    assert ended.message == "BAW12: the separation is kept again."

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 import pytest
@@ -128,7 +129,7 @@ def spacing(*seconds: tuple[int, float, float], mode: Mode = "follow") -> list[t
         )  # fmt: skip
         for _ in range(lasts):
             belief = replace(BELIEF, t=float(t))
-            outlook = Outlook(AHEAD, 9_800.0, t + 30.0)
+            outlook = Outlook(AHEAD, 9_800.0, t + 30.0, inf)
             memory, events = judge_spacing(memory, belief, ASSIGNMENT, done, outlook)
             for event in events:
                 assert isinstance(event, Alerted)
@@ -174,7 +175,7 @@ def test_what_is_uncertain_of_the_leader_is_not_out_of_the_gate() -> None:
         OUT + ASSIGNMENT.slot_distance - ASSIGNMENT.aim, False,
     )  # fmt: skip
     for t in np.arange(100.0):
-        outlook = Outlook(AHEAD, 9_800.0, float(t))
+        outlook = Outlook(AHEAD, 9_800.0, float(t), inf)
         memory, said = judge_spacing(memory, replace(unsure, t=float(t)), ASSIGNMENT, done, outlook)
         assert said == []
 

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from math import inf
 
 import pytest
 
@@ -199,7 +200,7 @@ def test_where_no_plan_keeps_a_buffer_a_forecast_next_to_d_min_is_not_trusted() 
     memory = begin(belief)._replace(mode="follow")
     for least, leaves in ((10.0, True), (30.0, False)):
         ahead = make_forecast([assignment.min_separation + least] * 200, t=belief.t)
-        outlook = Outlook(ahead, assignment.min_separation + least, belief.t + 40.0)
+        outlook = Outlook(ahead, assignment.min_separation + least, belief.t + 40.0, inf)
         assert must_leave(memory, belief, assignment, outlook) == leaves
         planned = memory._replace(mode="converge", committed=committed(belief, assignment))
         assert not must_leave(planned, belief, assignment, outlook)

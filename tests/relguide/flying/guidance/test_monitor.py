@@ -1,6 +1,7 @@
 """Separation is watched: an alert before it is lost, and one end of it."""
 
 from dataclasses import replace
+from math import inf
 
 import pytest
 
@@ -26,12 +27,14 @@ NOTHING_AHEAD = make_forecast([])
 
 
 def judge_seconds(*seconds: tuple[float, float, float]) -> list[tuple[float, Alerted]]:
-    """What is said, second by second: separation now, least separation ahead, and in what time."""
+    """What is said, second by second: separation now, least separation ahead, and in what time
+    the limit is lost; the least comes after twice that."""
     alert, said = StandingAlert(), list[tuple[float, Alerted]]()
     for t, (apart, least, in_seconds) in enumerate(seconds):
         own = BELIEF.leader._replace(y=BELIEF.leader.y - apart)
         belief = replace(BELIEF, t=float(t), own=own)
-        outlook = Outlook(NOTHING_AHEAD, least, t + in_seconds)
+        breaks = t + in_seconds if least < LIMIT else inf
+        outlook = Outlook(NOTHING_AHEAD, least, t + 2.0 * in_seconds, breaks)
         alert, events = judge_separation(alert, outlook, belief, ASSIGNMENT)
         for event in events:
             assert isinstance(event, Alerted)
@@ -57,7 +60,7 @@ def test_a_caution_comes_before_the_loss_and_a_warning_with_it() -> None:
     said = judge_seconds(CLEAR, *[SOON] * 5, *[LOST] * 5)
     assert levels(said) == [(1.0, "caution", False), (6.0, "warning", False)]
     caution, warning = (event for _, event in said)
-    assert caution.message == "Separation in 40 s: 4.86 NM, less than 5.00 NM."
+    assert caution.message == "Separation in 40 s: below 5.00 NM, down to 4.86 NM."
     assert (caution.predicted_least, caution.predicted_at) == (9_000.0, 41.0)
     assert warning.message == "Separation: 4.97 NM, less than 5.00 NM."
 
