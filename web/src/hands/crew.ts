@@ -93,6 +93,8 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
   // Control ends with its link, and with its flight.
   effect(() => {
     if (flight.connection.value !== "lost" || hands.peek() === null) return;
+    // data that are old may come by a link that still stands: then the service has to be told
+    if (stream()?.send({ kind: "give_back" }) === true) asked = "give";
     endFlying();
     say("refused", `${LOST} The autopilot flies.`);
   });

@@ -309,6 +309,124 @@ describe("neutral", () => {
   });
 });
 
+describe("who cannot fly for a while is told, and told again how to go on", () => {
+  interface Pad {
+    id: string;
+    axes: number[];
+    connected: boolean;
+  }
+
+  /** A controller that can be unplugged, and a page that can be left. */
+  function outside() {
+    const pads: (Pad | null)[] = [{ id: "Pad (Vendor: 0)", axes: [0, 0], connected: true }];
+    vi.stubGlobal("navigator", { getGamepads: () => pads });
+    const hasFocus = vi.spyOn(document, "hasFocus").mockReturnValue(true);
+    const hidden = vi.spyOn(document, "hidden", "get").mockReturnValue(false);
+    const look = (away: boolean) => {
+      hidden.mockReturnValue(away);
+      hasFocus.mockReturnValue(!away);
+      document.dispatchEvent(new Event("visibilitychange"));
+      dispatchEvent(new Event(away ? "blur" : "focus"));
+    };
+    return { pads, look, hasFocus };
+  }
+
+  afterEach(() => vi.restoreAllMocks());
+
+  test("an unplugged controller: neutral within a frame; back, it flies once it was let go", async () => {
+    const page = await flying();
+    const { pads } = outside();
+    const place = document.body.appendChild(document.createElement("div"));
+    await act(() => render(<StickPad session={page.session} actions={silentActions()} />, place));
+    const told = () => place.querySelector("[role=alert]")?.textContent;
+    const wait = (ms: number) => act(() => void vi.advanceTimersByTime(ms));
+    await wait(100);
+    expect(told()).toBe("");
+    pads[0] = { id: "Pad (Vendor: 0)", axes: [0.9, 0], connected: true };
+    await wait(100);
+    expect(page.rolls().at(-1)).toBeGreaterThan(0.8);
+    pads[0] = null;
+    await wait(50);
+    expect(page.rolls()).toEqual([0]);
+    expect(told()).toBe("Pad is gone: stick neutral. You have control, by keys and by this panel.");
+    expect(page.session.hands.value).not.toBeNull();
+    pads[0] = { id: "Pad (Vendor: 0)", axes: [0.9, 0], connected: true };
+    await wait(500);
+    expect(page.rolls()).toEqual([]);
+    expect(told()).toBe("Pad is back: let go of its stick once, then it flies.");
+    pads[0] = { id: "Pad (Vendor: 0)", axes: [0.02, 0], connected: true };
+    await wait(100);
+    expect(told()).toBe("Pad flies again.");
+    pads[0] = { id: "Pad (Vendor: 0)", axes: [-1, 0], connected: true };
+    await wait(100);
+    expect(page.rolls().at(-1)).toBe(-1);
+    expect(told()).toBe("");
+    await act(() => render(null, place));
+    place.remove();
+  });
+
+  test("a page out of sight: neutral at once; in sight again, what is still held waits", async () => {
+    const page = await flying();
+    const { pads, look } = outside();
+    pads[0] = { id: "Pad", axes: [0.9, 0], connected: true };
+    vi.advanceTimersByTime(100);
+    expect(page.rolls().at(-1)).toBeGreaterThan(0.8);
+    const { hands } = page.session;
+    look(true);
+    vi.advanceTimersByTime(60);
+    expect(page.rolls()).toEqual([0]);
+    expect(hands.value?.notice.value).toBe(
+      "Stick neutral: this page does not have the keys. Click here to fly on.",
+    );
+    vi.advanceTimersByTime(3000);
+    expect(page.rolls()).toEqual([]);
+    expect(hands.value?.controller.value).toBe("Pad");
+    look(false);
+    vi.advanceTimersByTime(100);
+    expect(page.rolls()).toEqual([]);
+    expect(hands.value?.notice.value).toBe("Pad is back: let go of its stick once, then it flies.");
+    pads[0] = { id: "Pad", axes: [0, 0], connected: true };
+    vi.advanceTimersByTime(100);
+    pads[0] = { id: "Pad", axes: [0.9, 0], connected: true };
+    vi.advanceTimersByTime(100);
+    expect(page.rolls().at(-1)).toBeGreaterThan(0.8);
+    look(true); // a page out of sight is given no frames
+    look(false);
+    vi.advanceTimersByTime(100);
+    expect(page.rolls()).toEqual([0]);
+    expect(hands.value?.notice.value).toContain("let go of its stick once");
+  });
+
+  test("without a controller: the stick was neutral meanwhile, and the next key clears the words", async () => {
+    const page = await flying();
+    const { pads, look } = outside();
+    pads[0] = null;
+    press("ArrowLeft");
+    vi.advanceTimersByTime(300);
+    look(true);
+    vi.advanceTimersByTime(5000);
+    look(false);
+    const { hands } = page.session;
+    vi.advanceTimersByTime(100);
+    expect(hands.value?.notice.value).toBe(
+      "The stick was neutral while you were away. You have control.",
+    );
+    page.rolls();
+    press("ArrowRight");
+    expect(page.rolls()).toEqual([0.2]);
+    expect(hands.value?.notice.value).toBe("");
+  });
+
+  test("data too old to fly by: control is given back, so that what is said is so", async () => {
+    const page = await flying();
+    page.session.flight.connection.value = "lost";
+    expect(page.sent.at(-1)).toEqual({ kind: "give_back" });
+    expect(page.session.hands.value).toBeNull();
+    page.answer(false, "The autopilot flies.");
+    expect(page.session.feedback.value).toEqual({ kind: "done", text: "The autopilot flies." });
+  });
+});
+
 describe("the pad", () => {
   test("follows one finger, and lets go when it is lifted or taken away", async () => {
     const page = await flying();
