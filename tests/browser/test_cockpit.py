@@ -129,6 +129,18 @@ def test_nothing_is_cut(page: Page, watched: Watch, size: tuple[int, int]) -> No
     assert watched.complaints == []
 
 
+@pytest.mark.parametrize("size", [(1024, 768), (1280, 800)], ids=["1024x768", "1280x800"])
+def test_the_page_stands_still_under_the_flight_display(
+    page: Page, watched: Watch, size: tuple[int, int]
+) -> None:
+    """Its panels are scrolled where they have no room, and nothing else."""
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.get_by_role("button", name="PFD", exact=True).click()
+    expect(page.locator(".pfd-panel")).to_be_visible()
+    assert page.evaluate("document.scrollingElement.scrollHeight") <= size[1]
+    assert watched.complaints == []
+
+
 def test_a_small_page_shows_the_aircraft_under_every_caption(page: Page, watched: Watch) -> None:
     """The captions of the first minute stand beside it, in the place of the events."""
     page.set_viewport_size({"width": 1024, "height": 768})

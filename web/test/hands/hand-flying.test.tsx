@@ -8,7 +8,7 @@ import { createFlightStore } from "../../src/store/flight";
 import { pairCard } from "../../src/store/pair";
 import type { Stream } from "../../src/stream";
 import type { ControlAnswer, StickMove, Upstream } from "../../src/wire";
-import { amend, pairAt, STARTED, sample, tick } from "../samples";
+import { amend, OWN, pairAt, STARTED, sample, tick } from "../samples";
 import { silentActions } from "../silence";
 
 /** A frame of the page [ms]. */
@@ -171,6 +171,51 @@ describe("control", () => {
     const other = await flying();
     other.session.status.value = { id: "two" } as NonNullable<Session["status"]["value"]>;
     expect(other.session.hands.value).toBeNull();
+  });
+});
+
+describe("what the crew selects", () => {
+  const ASSIGNED = {
+    kind: "assignment_changed",
+    t_s: 2,
+    ident: OWN,
+    slot_distance_m: 10_000,
+    min_separation_m: 9260,
+    max_bank_deg: 25,
+    selected_tas_mps: [] as number[],
+    message: "",
+  } as const;
+
+  test.each([
+    ["speed", (crew: Crew) => crew.selectSpeed(130), {}, "250 kt is refused, it stays as it is."],
+    ["bank", (crew: Crew) => crew.selectBank(50), {}, "50° of bank is refused."],
+    ["D", (crew: Crew) => crew.setSpacing({ slot_distance_m: 50 }), {}, "Refused: D stays 5.4 NM."],
+  ])("and the flight refuses is said to be refused: %s", async (_, select, change, message) => {
+    const page = opened();
+    select(page.crew);
+    await vi.advanceTimersByTimeAsync(0);
+    expect(page.session.feedback.value.kind).toBe("none");
+    amend(page.session.flight, { assignment: { ...ASSIGNED, ...change, message } });
+    expect(page.session.feedback.value).toEqual({ kind: "refused", text: message });
+  });
+
+  test.each([
+    ["speed", (crew: Crew) => crew.selectSpeed(130), { selected_tas_mps: [130] }],
+    ["no speed", (crew: Crew) => crew.selectSpeed(null), {}],
+    ["bank", (crew: Crew) => crew.selectBank(20), { max_bank_deg: 20 }],
+    [
+      "D",
+      (crew: Crew) => crew.setSpacing({ slot_distance_m: 12_000 }),
+      { slot_distance_m: 12_000 },
+    ],
+  ])("and the flight obeys is said in its words: %s", async (_, select, change) => {
+    const page = opened();
+    select(page.crew);
+    await vi.advanceTimersByTimeAsync(0);
+    amend(page.session.flight, { assignment: { ...ASSIGNED, ...change, message: "Now so." } });
+    expect(page.session.feedback.value).toEqual({ kind: "done", text: "Now so." });
+    amend(page.session.flight, { assignment: { ...ASSIGNED, message: "Another page's." } });
+    expect(page.session.feedback.value).toEqual({ kind: "done", text: "Now so." });
   });
 });
 
