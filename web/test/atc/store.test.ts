@@ -1,4 +1,4 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, test } from "vitest";
 import { append, documentsOf, type Histories, MOST, newest, skyAt } from "../../src/atc/history";
 import { readRecording, writeRecording } from "../../src/atc/recording";
 import { emptySky, fold } from "../../src/atc/sky";
@@ -112,6 +112,15 @@ describe("the history", () => {
     const again = told(documentsOf(history)).get("") ?? raise("");
     expect(newest(again)).toEqual(newest(history));
   });
+});
+
+test("a flight that has ended, and of which only an ended request is told, has no tab", () => {
+  const store = createAtcStore();
+  const ended = clearance("9", { sky: "gone", state: "terminated" });
+  store.receive([seen([]), changed(ended), changed(clearance("8", { sky: "new" }))]);
+  expect(store.skies.value.map(({ id }) => id)).toEqual(["", "new"]);
+  store.receive([seen([traffic("DLH9")], 5, "gone")]);
+  expect(store.skies.value.map(({ id }) => id)).toEqual(["", "gone", "new"]);
 });
 
 describe("a recording", () => {
