@@ -1,6 +1,7 @@
 """Situations as outsiders send them, and how bad ones are refused."""
 
 import json
+import re
 from math import atan2, hypot, pi
 from pathlib import Path
 from typing import Any
@@ -128,10 +129,21 @@ def test_the_bounds_themselves_are_accepted(bank: float) -> None:
     assert situation_from_json(change("pursuer.max_bank_deg", bank))
 
 
-@pytest.mark.parametrize("heading", [-720.0, 450, 1e308])
-def test_any_finite_heading_is_accepted(heading: float) -> None:
+@pytest.mark.parametrize("heading", [-720.0, 450, 720.0])
+def test_headings_up_to_twice_round_are_accepted(heading: float) -> None:
     situation, _ = situation_from_json(change("pursuer.heading_deg", heading))
     assert 0.0 <= situation.pursuer.heading <= 2.0 * pi
+
+
+@pytest.mark.parametrize(
+    "path", ["pursuer.heading_deg", "leader.intent.1.turn_to_heading_deg", "wind.from_deg"]
+)
+@pytest.mark.parametrize("heading", [4000, -720.1, 1e308])
+def test_headings_further_round_are_refused_as_the_library_does(path: str, heading: float) -> None:
+    said = f"must lie in -720 … 720 °, not {heading:.9g} °."
+    assert problem_of(change(path, heading))[1] == said
+    with pytest.raises(ValueError, match=re.escape(f"heading_deg {said}")):
+        TurnTo.from_display(heading_deg=heading, direction="left", bank_deg=20.0)
 
 
 @pytest.mark.parametrize(
