@@ -9,6 +9,8 @@ from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationErro
 from pydantic_core import CoreSchema
 
 from relguide.contract.docs import field_docs
+from relguide.contract.wanted import TAG as TAG
+from relguide.contract.wanted import wanted, wanted_tags
 
 MAX_SAID = 8
 """How many defects the sentence of a refusal spells out."""
@@ -21,8 +23,6 @@ FLOWN_ONLY = ("air", "believed_air", "surveillance")
 MEANT = 0.7
 """How much an unknown field is like the one that is meant, from 0 to 1. A word of its name, as `x`
 of `x_m`, or another unit, as in `tas_kt`, will do as well."""
-TAG = "#"
-"""First character of the tags of `Discriminator`s, which distinguishes them from field names."""
 
 
 class Strict(BaseModel):
@@ -131,14 +131,17 @@ def parse(model: type[M], source: bytes | str | Mapping[str, object] | list[obje
     try:
         return model.model_validate(content)
     except ValidationError as error:
-        raise refusal(error, content) from None
+        raise refusal(error, content, model.__pydantic_core_schema__) from None
 
 
-def refusal(error: ValidationError, content: object) -> ContractError:
-    """Pydantic's findings about `content`, in our words."""
+def refusal(error: ValidationError, content: object, schema: Mapping[str, Any]) -> ContractError:
+    """Pydantic's findings about `content`, read by its core schema, in our words."""
     found: list[Any] = error.errors(include_url=False)[:MAX_LISTED]
     missing = [e["loc"] for e in found if e["type"] == "missing"]
-    problems = [(_path(e, content), _say_meant(e, missing) or _sentence(e)) for e in found]
+    problems = [
+        (_path(e, content), _say_wanted(e, schema) or _say_meant(e, missing) or _sentence(e))
+        for e in found
+    ]
     named = [(path, text if path else f"This {text}") for path, text in problems]
     return ContractError(named, count=error.error_count())
 
@@ -251,6 +254,18 @@ def _sentence(error: Any, given: str = "") -> str:
     if "tag" in context:
         context["tag"] = _quote(context["tag"])
     return sentence.format(**context, given=given)
+
+
+def _say_wanted(error: Any, schema: Mapping[str, Any]) -> str:
+    """What would be right in place of what is missing; or nothing."""
+    match error["type"]:
+        case "missing":
+            must = wanted(schema, error["loc"])
+        case "union_tag_not_found":
+            must = wanted_tags(schema, error["loc"])
+        case _:
+            return ""
+    return f"is missing: it {must}." if must else ""
 
 
 def _say_meant(error: Any, missing: Sequence[tuple[Any, ...]]) -> str:

@@ -80,7 +80,19 @@ def test_a_field_without_its_unit_is_asked_about(given: str, meant: str) -> None
 @pytest.mark.parametrize(
     ("path", "value", "where", "sentence"),
     [
-        ("pursuer.tas_mps", ..., "pursuer.tas_mps", "is missing."),
+        (
+            "pursuer",
+            ...,
+            "pursuer",
+            "is missing: it must be an object with x_m, y_m, heading_deg, ",
+        ),
+        ("pursuer.tas_mps", ..., "pursuer.tas_mps", "is missing: it must lie in 30 … 400 m/s."),
+        (
+            "leader.intent.1.direction",
+            ...,
+            "leader.intent[1].direction",
+            "is missing: it must be 'left' or 'right'.",
+        ),
         ("pursuer.tas_mps", True, "pursuer.tas_mps", "must be a number, not true."),
         ("pursuer.tas_mps", "235", "pursuer.tas_mps", 'must be a number, not the text "235".'),
         ("pursuer.tas_mps", None, "pursuer.tas_mps", "must be a number, not null."),
@@ -101,7 +113,7 @@ def test_a_field_without_its_unit_is_asked_about(given: str, meant: str) -> None
             "leader.intent[0].straight_s",
             "must lie in 0 … 86400 s",
         ),
-        ("leader.intent", [{}], "leader.intent[0].straight_s", "is missing."),
+        ("leader.intent", [{}], "leader.intent[0].straight_s", "is missing: it must lie in 0 … 8"),
         ("leader.intent", [7], "leader.intent[0]", "must be an object with fields, not 7."),
         ("leader.intent", [{"straight_s": 1}] * 21, "leader.intent", "must have at most 20"),
         ("leader.intent", None, "leader.intent", "must be a list, not null."),

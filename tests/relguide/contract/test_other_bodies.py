@@ -95,7 +95,7 @@ WRONG: list[tuple[str, Any, str, str]] = [
         "leader.intent.0",
         {"level_change": {"to_altitude_m": 1}},
         "leader.intent[0].level_change.rate_mps",
-        "is missing.",
+        "is missing: it must lie in 0.5 … 60 m/s.",
     ),
     (
         "traffic.0.intent.1.level_change.rate_mps",
@@ -119,7 +119,7 @@ WRONG: list[tuple[str, Any, str, str]] = [
     ("traffic.1.ident", "BAW12", "traffic[1].ident", "is that of traffic[0] already: give each"),
     ("cells.1.ident", "BAW12", "cells[1].ident", "is that of traffic[0] already: give each its"),
     ("traffic.0.tas_mps", 10, "traffic[0].tas_mps", "must lie in 30 … 400 m/s, not 10 m/s."),
-    ("traffic.0.x_m", ..., "traffic[0].x_m", "is missing."),
+    ("traffic.0.x_m", ..., "traffic[0].x_m", "is missing: it must lie in -1e+06 … 1e+06 m."),
     ("traffic.0.max_bank_deg", 25, "traffic[0].max_bank_deg", "is not a field of the contract"),
     (
         "traffic.0.min_separation_m",
@@ -134,7 +134,7 @@ WRONG: list[tuple[str, Any, str, str]] = [
         "must be placed by x_m, y_m, as pursuer and leader are.",
     ),
     ("cells.0.disc.radius_m", 0, "cells[0].disc.radius_m", "must lie in 1 … 500000 m, not 0 m."),
-    ("cells.0.disc", ..., "cells[0].disc", "is missing."),
+    ("cells.0.disc", ..., "cells[0].disc", "is missing: it must be an object with x_m, y_m "),
     ("cells.1.disc", {}, "cells[1].disc", "is not a field of the contract: leave it out."),
     (
         "cells.0.disc",
