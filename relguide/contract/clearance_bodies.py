@@ -156,7 +156,7 @@ class ClearanceAnswer(Strict):
 
     answer: Literal["accepted", "unable", "standby", "cancelled", "terminated"]
     """cancelled: the clearance is taken back; terminated: who deviates is cleared no more."""
-    reason: ReasonCode | Literal[""] = ""
+    reason: Literal[ReasonCode, ""] = ""
     """Why, of unable; if left out, the controller's own."""
     message: Message = ""
     """In words; if left out, those of data link."""

@@ -36,8 +36,7 @@ def wanted(schema: Schema, location: Sequence[str | int]) -> str:
     here = _find(schema, location, known)
     if here is None:
         return ""
-    name = next((step for step in reversed(location) if isinstance(step, str)), "")
-    return _describe(here, known, UNITS.get(name.rpartition("_")[2], ""))
+    return _describe(here, known, unit_of(location))
 
 
 def wanted_tags(schema: Schema, location: Sequence[str | int]) -> str:
@@ -47,6 +46,20 @@ def wanted_tags(schema: Schema, location: Sequence[str | int]) -> str:
     choices = _bare(here, known)[0].get("choices", {}) if here else {}
     tags = [tag for tag in choices if not str(tag).startswith(TAG)]
     return f"must be {_any_of(tags)}" if tags else ""
+
+
+def fields_at(schema: Schema, location: Sequence[str | int]) -> tuple[str, ...]:
+    """The fields that an object at that place may have."""
+    known: dict[str, Schema] = {}
+    here = _find(schema, location, known)
+    return tuple(_bare(here, known)[0].get("fields", ())) if here else ()
+
+
+def unit_of(location: Sequence[str | int]) -> str:
+    """The unit that the name of a field ends with, behind a space; empty where it names none."""
+    name = next((step for step in reversed(location) if isinstance(step, str)), "")
+    unit = UNITS.get(name.rpartition("_")[2], "")
+    return f" {unit}" if unit else ""
 
 
 def _find(schema: Schema, location: Sequence[str | int], known: dict[str, Schema]) -> Schema | None:
@@ -105,7 +118,7 @@ def _describe(schema: Schema, known: dict[str, Schema], unit: str) -> str:
     match bare["type"]:
         case "float" | "int" as kind:
             number = "a number" if kind == "float" else "a whole number"
-            return f"must be {number}{_bounds(bare, unit) or (f' [{unit}]' if unit else '')}"
+            return f"must be {number}{_bounds(bare, unit) or (f' [{unit[1:]}]' if unit else '')}"
         case "str":
             return "must be a text"
         case "bool":
@@ -131,12 +144,11 @@ def _describe_any(union: Schema, known: dict[str, Schema], unit: str) -> str:
 
 def _bounds(number: Schema, unit: str) -> str:
     least, most = (number.get(bound) for bound in ("ge", "le"))
-    behind = f" {unit}" if unit else ""
     if least is not None and most is not None:
-        return f" of {least:g} … {most:g}{behind}"
+        return f" of {least:g} … {most:g}{unit}"
     if least is not None:
-        return f" of at least {least:g}{behind}"
-    return f" of at most {most:g}{behind}" if most is not None else ""
+        return f" of at least {least:g}{unit}"
+    return f" of at most {most:g}{unit}" if most is not None else ""
 
 
 def _needed(model: Schema) -> str:

@@ -78,6 +78,17 @@ def test_a_field_without_its_unit_is_asked_about(given: str, meant: str) -> None
 
 
 @pytest.mark.parametrize(
+    ("path", "meant"),
+    [("pursuer.altitude_ft", "altitude_m"), ("leader.intents", "intent"), ("wnd", "wind")],
+)
+def test_a_field_that_may_be_left_out_is_asked_about_too(path: str, meant: str) -> None:
+    body = change(path, 1)
+    owner = body[path.partition(".")[0]] if "." in path else body
+    owner.pop(meant, None)
+    assert problem_of(body) == (path, f"is not a field of the contract: did you mean {meant}?")
+
+
+@pytest.mark.parametrize(
     ("path", "value", "where", "sentence"),
     [
         (
@@ -98,6 +109,8 @@ def test_a_field_without_its_unit_is_asked_about(given: str, meant: str) -> None
         ("pursuer.tas_mps", None, "pursuer.tas_mps", "must be a number, not null."),
         ("pursuer.tas_mps", 29.9, "pursuer.tas_mps", "must lie in 30 … 400 m/s, not 29.9 m/s."),
         ("leader.tas_mps", 400.1, "leader.tas_mps", "must lie in 30 … 400 m/s, not 400.1 m/s."),
+        ("pursuer.", 1, 'pursuer.""', "is not a field of the contract: leave it out."),
+        ("", 1, '""', "is not a field of the contract: leave it out."),
         ("pursuer.tas_kt", 1, "pursuer.tas_kt", "is not a field of the contract: leave it out."),
         ("pursuer.x_m", 10**400, "pursuer.x_m", "is too large a number to be read."),
         ("pursuer.x_m", 1000001, "pursuer.x_m", "must lie in -1e+06 … 1e+06 m, not 1000001 m."),
@@ -283,6 +296,11 @@ def test_a_pursuer_at_a_pole_has_a_heading(pole: float) -> None:
     assert abs(start["lat_deg"]) == pytest.approx(90.0)
     # along the meridian of 30° the pole's north is the plane's
     assert situation.pursuer.heading / DEG == pytest.approx(90.0, abs=1e-6)
+
+
+def test_a_latitude_beyond_the_poles_is_refused_with_its_unit() -> None:
+    _, message = problem_of(on_earth((91.0, 1.4), (49.0, 2.0)))
+    assert message == "must be at most 90 °, not 91.0 °."
 
 
 @pytest.mark.parametrize("pursuer", [(-49.0, -178.0), (10.0, 2.0)])

@@ -103,7 +103,7 @@ def test_each_is_given_once_at_its_time() -> None:
         ),
         (b'{"leader_tas_mps": 200}', "t_s: is missing: it must be a number of at least 0 s."),
         (b'{"t_s": 59, "intent_known": true}', "t_s: must be at least 60, that of the order befo"),
-        (b'{"t_s": -1, "intent_known": true}', "t_s: must be at least 0, not -1"),
+        (b'{"t_s": -1, "intent_known": true}', "t_s: must be at least 0 s, not -1 s."),
         (b'{"t_s": NaN, "intent_known": true}', "NaN is not a number in JSON"),
         (b'{"t_s": 1e999, "intent_known": true}', "t_s: must be a finite number"),
         (b'{"t_s": "70", "intent_known": true}', 't_s: must be a number, not the text "70".'),

@@ -143,9 +143,14 @@ WRONG: list[tuple[str, Any, str, str]] = [
         "must be placed by x_m, y_m, as",
     ),
     ("cells.0.velocity_mps", [151, 0], "cells[0].velocity_mps[0]", "must lie in -150 … 150 m/s"),
-    ("cells.0.velocity_mps", [1], "cells[0].velocity_mps", "must have at least 2 entries."),
+    ("cells.0.velocity_mps", [1], "cells[0].velocity_mps", "must have at least 2 entries, not 1."),
     ("cells.0.growth_mps", -1, "cells[0].growth_mps", "must lie in 0 … 50 m/s, not -1 m/s."),
-    ("cells.1.polygon", [[0, 0], [1e4, 0]], "cells[1].polygon", "must have at least 3 entries."),
+    (
+        "cells.1.polygon",
+        [[0, 0], [1e4, 0]],
+        "cells[1].polygon",
+        "must have at least 3 entries, not 2.",
+    ),
     ("cells.1.polygon.0", [1, 2, 3], "cells[1].polygon[0]", "must have at most 2 entries, not 3."),
     ("cells.1.polygon.0", [1, 2e6], "cells[1].polygon[0][1]", "must lie in -1e+06 … 1e+06 m"),
     (
@@ -379,7 +384,7 @@ def test_places_and_directions_are_those_of_the_earth() -> None:
     ("path", "value", "where", "sentence"),
     [
         ("traffic.0.lat_deg", -50, "traffic[0].lat_deg, traffic[0].lon_deg", "must lie within 10"),
-        ("cells.0.disc.lat_deg", 91, "cells[0].disc.lat_deg", "must be at most 90, not 91."),
+        ("cells.0.disc.lat_deg", 91, "cells[0].disc.lat_deg", "must be at most 90 °, not 91 °."),
         (
             "cells.1.polygon.1",
             {"lat_deg": -47, "lon_deg": 179},
