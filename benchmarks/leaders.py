@@ -1,7 +1,8 @@
 """Flying behind every recorded leader of the Paris data: `python -m benchmarks.leaders`.
 
 Each is found by its name, as `relguide fly quickstart:NAME` finds it, and flown as that does. What
-became of each goes to benchmarks/results/leaders.csv; how many joined is printed.
+became of each goes to benchmarks/results/leaders.csv; how many joined, and how many lost d_min, is
+printed.
 """
 
 import argparse
@@ -13,16 +14,17 @@ from os import cpu_count
 
 from benchmarks.options import positive
 from benchmarks.tables import markdown, write_table
+from benchmarks.unable import unable_at_the_end
 from relguide import plan
 from relguide.campaign import recordings
-from relguide.flying.documents import FlightEnded, Unable
+from relguide.flying.documents import FlightEnded
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario_behind
 from relguide.planning.progress import show_progress
 from relguide.units import NM
 
 NAME = "leaders.csv"
-HEADINGS = ("leader", "seconds", "joined, s", "least, NM", "losses", "said last")
+HEADINGS = ("leader", "seconds", "joined, s", "least, NM", "losses", "why not")
 LAST = "the recording ends"
 """What became of a flight that neither joined nor was unable."""
 
@@ -39,6 +41,7 @@ def main(arguments: list[str] | None = None) -> int:
         [
             ["flown", f"{len(rows)}"],
             *([outcome, f"{count}"] for outcome, count in counted.most_common()),
+            ["lost d_min", f"{sum(cells[4] != '0' for cells, _ in rows)}"],
         ],
     )
     print(shown)  # noqa: T201
@@ -63,9 +66,9 @@ def fly_behind(number: int) -> tuple[list[str], str]:
     ended = documents[-1]
     assert isinstance(ended, FlightEnded)
     (result,) = ended.results
-    unables = [document for document in documents if isinstance(document, Unable)]
-    said = "joined" if result.joined else unables[-1].message if unables else LAST
-    outcome = "joined" if result.joined else f"unable: {unables[-1].reason}" if unables else LAST
+    why = unable_at_the_end(documents)
+    said = "joined" if result.joined else why.message if why else LAST
+    outcome = "joined" if result.joined else f"unable: {why.reason}" if why else LAST
     return [
         track.ident,
         f"{track.duration:.0f}",

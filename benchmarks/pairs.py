@@ -20,10 +20,11 @@ import numpy as np
 from benchmarks.arrivals import Pair, pairs
 from benchmarks.options import positive
 from benchmarks.tables import Cells, markdown, write_table
+from benchmarks.unable import unable_at_the_end
 from relguide import plan
 from relguide.flying.air import STANDARD_AIR
 from relguide.flying.airframe_files import airframe
-from relguide.flying.documents import Document, FlightEnded, Unable
+from relguide.flying.documents import Document, FlightEnded
 from relguide.flying.envelope import flight_level, level_for
 from relguide.flying.flight import DEFAULT_TYPE, Scenario, fly
 from relguide.planning.aircraft import Leader, Pursuer
@@ -66,10 +67,12 @@ class Outcome:
     join_time: Second
     track: Metre
     least: Metre
+    lost: bool
+    """Whether it lost d_min."""
     why: str
     """Why it did not join; empty if it did."""
     reason: str
-    """In a word: what guidance was last unable for, or that the recording ended first."""
+    """In a word: what guidance is unable for, or that the recording ended first."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -113,7 +116,7 @@ def fly_pair(pair: Pair) -> Outcome:
     except ValueError as refused:
         return Outcome(
             pair=pair, real=real, level="", joined=False, join_time=0.0, track=0.0, least=0.0,
-            why=str(refused), reason="speed",
+            lost=False, why=str(refused), reason="speed",
         )  # fmt: skip
     documents = list(fly(scenario, plan, sample_period=1.0))
     ended = documents[-1]
@@ -128,6 +131,7 @@ def fly_pair(pair: Pair) -> Outcome:
         join_time=result.join_time,
         track=result.track,
         least=result.least_separation,
+        lost=bool(result.losses),
         why=why,
         reason=reason,
     )
@@ -165,10 +169,10 @@ def _level(first: MetrePerSecond, preferred: Metre) -> Metre:
 
 
 def _why(documents: list[Document]) -> tuple[str, str]:
-    """What guidance said last of why it does not join, and its reason in a word."""
-    said = [document for document in documents if isinstance(document, Unable)]
-    if said:
-        return said[-1].message, said[-1].reason
+    """Why it flies no plan at the end, and its reason in a word."""
+    why = unable_at_the_end(documents)
+    if why:
+        return why.message, why.reason
     return "still converging at the end of the recording", "end"
 
 
@@ -213,7 +217,8 @@ def _figures(outcomes: list[Outcome]) -> Cells:
             for reason in sorted({outcome.reason for outcome in missed})
         ),
     )
-    return [_line(name, some) for name, some in groups if some]
+    lost = [outcome for outcome in outcomes if outcome.lost]
+    return [*(_line(name, some) for name, some in groups if some), _line("lost d_min", lost)]
 
 
 def _line(name: str, outcomes: list[Outcome]) -> list[str]:

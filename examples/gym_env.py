@@ -1,6 +1,6 @@
 """Joining a leader as a Gymnasium environment, judged by the exact optimum.
 
-Needs `pip install relguide gymnasium`. Run, it flies ten situations by a simple rule and by the
+Needs relguide and `pip install gymnasium`. Run, it flies ten situations by a simple rule and by the
 exact plan, and prints what each loses to the optimum.
 """
 

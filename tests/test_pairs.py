@@ -1,11 +1,17 @@
 """Consecutive arrivals of the Paris data, and ours in the place of a follower."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from benchmarks.arrivals import Pair, centrelines, pairs
 from benchmarks.pairs import established, fly_pair
+from benchmarks.unable import unable_at_the_end
+from relguide.flying.documents import PlanChanged, Unable
 from relguide.units import NM
+from tests.flights import fly_whole
+from tests.relguide.flying.guidance.beliefs import FIG_6B
 
 KNOWN = {
     ("EJU875P", "EJU948D"): 96.0,
@@ -57,4 +63,21 @@ def test_ours_takes_the_followers_place(found: dict[tuple[str, str], Pair]) -> N
     outcome = fly_pair(found["AFR93XT", "AFR73VJ"])
     assert outcome.joined == (not outcome.why)
     assert outcome.least >= 3.0 * NM - 1.0
+    assert not outcome.lost
     assert outcome.joined == (not outcome.reason)
+
+
+def test_why_a_flight_flies_no_plan_is_what_was_said_last_since_its_last_one() -> None:
+    """Not what is said of the heading that is held meanwhile, nor what a new plan ended."""
+    near, slow, turns = (
+        Unable(t=t, ident="PURSUER", reason="separation", message=message)
+        for t, message in (
+            (10.0, "Unable: What is flown would come within 4.70 NM of the leader."),
+            (30.0, "Unable to follow: the leader flies 146 kt."),
+            (50.0, "Turning to 192°, to keep clear of the leader."),
+        )
+    )
+    (planned,) = fly_whole(replace(FIG_6B, duration_limit=1.0)).of(PlanChanged)
+    assert unable_at_the_end([planned]) is None
+    assert unable_at_the_end([planned, near, planned]) is None
+    assert unable_at_the_end([planned, near, planned, near, slow, turns]) is slow

@@ -30,6 +30,7 @@ from relguide.units import Second
 
 UNABLE: dict[Reason, UnableReason] = {
     Reason.SLOT_UNREACHABLE: "speed",
+    Reason.BEYOND_HORIZON: "speed",
     Reason.TRAFFIC: "traffic",
 }
 """Why guidance is unable without a plan; for all other reasons: `separation`."""

@@ -18,7 +18,7 @@ from relguide.planning.outcome import Conflict, NoPlan, Planner, Reason
 from relguide.planning.phrases import distance
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
-from relguide.units import Metre, Second
+from relguide.units import KT, Metre, Second
 
 BUFFERS = 3
 """How often a wider berth is tried where the flight would come closer than the plan."""
@@ -121,7 +121,9 @@ def _propose_without_buffer(
     fell_back = wide.fell_back or answer.fell_back
     refusal = answer.refusal or wide.refusal
     if isinstance(answer.plan, NoPlan):
-        no_plan = _lost_to_another(answer.plan, lead) or answer.plan
+        no_plan = answer.plan
+        if no_plan.reason == Reason.SEPARATION_ALREADY_LOST:
+            no_plan = _refuse_lost(no_plan, belief, assignment, planner, lead)
         return NoProposal(answer=no_plan, fell_back=fell_back, refusal=refusal)
     found = commit(answer.plan, lead, belief, assignment)
     least = found.kept(found.forecast, belief.t, assignment)
@@ -163,8 +165,9 @@ def _refuse_lost(
         return now if isinstance(now, NoPlan) else later
     return NoPlan(
         reason=Reason.SEPARATION_UNAVOIDABLE,
-        message=f"In {lead.seconds:.0f} s, before another path can begin, the aircraft are "
-        f"{distance(lead.separation)} apart, closer than {distance(assignment.min_separation)}.",
+        message=f"In {lead.seconds:.0f} s at {lead.pursuer.tas / KT:.0f} kt, before another path "
+        f"can begin, the aircraft would be {distance(lead.separation)} apart, closer than "
+        f"{distance(assignment.min_separation)}.",
     )
 
 

@@ -9,14 +9,18 @@ from relguide.flying.documents import LeaderChanged, PlanChanged, PromiseChanged
 from relguide.flying.flight import IntentKnown, LeaderHeading, LeaderSpeed, Scenario
 from relguide.flying.guidance.announcements import (
     Expectation,
+    UnableTo,
     leader_change,
     reason_sentence,
     summary,
 )
 from relguide.flying.guidance.commit.proposal import Proposal
 from relguide.flying.guidance.commit.propose import propose
+from relguide.flying.guidance.memory import begin
+from relguide.flying.guidance.plan_news import say_no_plan
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.scenarios import fig_6, own_scenario
+from relguide.planning.outcome import NoPlan, Reason
 from relguide.planning.plan import plan
 from relguide.units import DEG, KT
 from tests.flights import Flown, fly_whole, random_start
@@ -186,3 +190,12 @@ def test_sentences_say_why_and_what_comes() -> None:
     found = propose(straight, assignment, None, plan)
     assert isinstance(found, Proposal)
     assert summary(found.committed.plan, 59.6) == "LSR joins in 1 min 00 s and keeps 5.4 NM"
+
+
+@pytest.mark.parametrize("reason", [Reason.SLOT_UNREACHABLE, Reason.BEYOND_HORIZON])
+def test_a_slot_that_is_not_caught_or_only_in_13_hours_is_a_matter_of_speed(reason: Reason) -> None:
+    belief, assignment = observe(FIG_6B)
+    answer = NoPlan(reason=reason, message="A larger speed difference helps.")
+    _, events = say_no_plan(begin(belief), belief, assignment, answer, [])
+    said = [event for event in events if isinstance(event, UnableTo)]
+    assert [(one.reason, one.message) for one in said] == [("speed", f"Unable: {answer.message}")]

@@ -1,6 +1,7 @@
 """Which path is flown: only one that keeps d_min as it is flown."""
 
 from dataclasses import replace
+from math import inf
 
 import pytest
 
@@ -16,6 +17,7 @@ from relguide.flying.scenarios import own_scenario
 from relguide.kernels.flight.ahead import MODE
 from relguide.kernels.flight.guide import CONVERGE
 from relguide.planning.aircraft import Leader, Pursuer
+from relguide.planning.heights import Heights
 from relguide.planning.intent import FlyStraight, TurnTo
 from relguide.planning.outcome import NoPlan, Plan, Reason
 from relguide.planning.phrases import distance
@@ -23,7 +25,7 @@ from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.planning.wind import Wind
-from relguide.units import DEG, NM
+from relguide.units import DEG, KT, NM
 from tests.flights import fly_whole, random_start
 from tests.liars import ends_beside
 from tests.relguide.flying.guidance.beliefs import FIG_6B, behind, observe
@@ -197,3 +199,25 @@ def test_a_large_buffer_does_not_lead_out_of_the_gate() -> None:
     _, assignment = observe(tight, replace(DEFAULT, separation_buffer=2_000.0))
     assert assignment.aim == situation.slot_distance + IN_GATE * DEFAULT.joined_along
     assert assignment.buffered_separation == assignment.aim
+
+
+@pytest.mark.parametrize("tas", [230.0, 140.0])
+def test_what_is_too_near_only_where_a_path_would_begin_is_not_said_of_now(tas: float) -> None:
+    """1,000 ft keep both apart; plans begin at V_P, though the aircraft flies slower at first."""
+    belief, assignment = observe(behind(along=5.0 * NM + 100.0, leader_tas=150.0))
+    apart = replace(
+        belief,
+        own=belief.own._replace(tas=tas),
+        intent_known=False,
+        own_heights=Heights(altitude=5_000.0),
+        leader_heights=Heights(altitude=5_400.0),
+    )
+    assert apart.counted_separation == inf
+    found = propose(apart, assignment, None, plan)
+    assert isinstance(found, NoProposal)
+    assert found.answer.reason == Reason.SEPARATION_UNAVOIDABLE
+    then = distance(5.0 * NM + 100.0 - 7.0 * (assignment.planned_tas - 150.0))
+    assert found.answer.message == (
+        f"In 7 s at {assignment.planned_tas / KT:.0f} kt, before another path can begin, the "
+        f"aircraft would be {then} apart, closer than 5.00 NM."
+    )
