@@ -94,8 +94,8 @@ class SimulationFigures(Strict):
 
     joined: bool
     """Whether the pursuer joined."""
-    join_time_s: float
-    """When it joined."""
+    join_time_s: float | None
+    """When it joined; null if it did not."""
     planned_time_s: float
     """Time to converge of the plan at engagement."""
     promised_s: float
@@ -117,8 +117,8 @@ class SimulationFigures(Strict):
     simulated_s: float
     """Time flown."""
     over_optimum_s: float | None
-    """By how much it joined later than the fastest plan from its start would; null where there is
-    none, or the leader is recorded."""
+    """By how much it joined later than the fastest plan from its start would; null where it did not
+    join, there is no such plan, or the leader is recorded."""
     along_error_m: float
     """Largest error of the spacing along the route while it followed."""
     across_error_m: float
