@@ -37,6 +37,12 @@ def test_one_request() -> None:
     assert json.loads((ROOT / "examples" / "situation.json").read_text()) == body
 
 
+def test_its_commands_run_without_an_activated_environment() -> None:
+    commands = re.findall(r"\S*relguide (?:plan|fly|serve|figures|claims|campaign)\b", README)
+    assert len(commands) == 3
+    assert all(command.strip("`").startswith(".venv/bin/relguide ") for command in commands)
+
+
 def test_it_is_read_in_five_minutes() -> None:
     assert len(README.split()) <= 1000
 

@@ -1,6 +1,10 @@
 /// <reference types="vitest/config" />
-import { defineConfig, type UserConfig } from "vite";
+import { resolve } from "node:path";
+import { defineConfig, type Rolldown, type UserConfig } from "vite";
 import manifest from "./package.json" with { type: "json" };
+
+const COCKPIT = "src/main.tsx";
+const CONTROLLER = "src/atc/main.tsx";
 
 const server = "http://127.0.0.1:8000";
 
@@ -26,13 +30,36 @@ function bundle(entry: string, fileName: string): UserConfig {
   };
 }
 
+/** A chunk of all modules that each of some pages loads at once: one file compresses better than many. */
+function atOnce(name: string, ...pages: string[]): Rolldown.CodeSplittingGroup {
+  return {
+    debugName: name,
+    name(id, graph) {
+      const isAtOnce = (page: string) => {
+        const found = new Set([resolve(import.meta.dirname, page)]);
+        for (const each of found)
+          for (const next of graph.getModuleInfo(each)?.importedIds ?? []) found.add(next);
+        return found.has(id);
+      };
+      return pages.every(isAtOnce) ? name : null;
+    },
+  };
+}
+
 const page: UserConfig = {
   ...common,
   build: {
     target: "es2023",
     sourcemap: false,
     modulePreload: { polyfill: false },
-    rolldownOptions: { input: ["index.html", "atc.html"] },
+    rolldownOptions: {
+      input: ["index.html", "atc.html"],
+      output: {
+        codeSplitting: {
+          groups: [atOnce("pages", COCKPIT, CONTROLLER), atOnce("cockpit", COCKPIT)],
+        },
+      },
+    },
   },
   server: {
     proxy: {

@@ -22,7 +22,7 @@ from relguide.flying.pilot_model import (
 )
 from relguide.flying.surveillance import LATENCY, LOSS_SHARE
 from relguide.planning.inputs import Range
-from relguide.planning.limits import BANK, DISTANCE, SPACING, TAS, WIND
+from relguide.planning.limits import BANK, COMPASS, DISTANCE, SPACING, TAS, WIND
 from relguide.planning.situation import Situation
 from relguide.planning.wind import Wind, wind_from
 from relguide.units import DEG
@@ -186,7 +186,7 @@ KEYS: Mapping[str, Key] = {
     "start_distance_m": Key(AWAY, _start_distance, "from the leader at the start"),
     "start_bearing_deg": Key(Range(-360.0, 360.0, "°"), _start_bearing, "from the leader"),
     "wind_mps": Key(WIND, _wind_speed, "wind speed"),
-    "wind_from_deg": Key(Range(-360.0, 360.0, "°"), _wind_direction, "where it comes from"),
+    "wind_from_deg": Key(COMPASS, _wind_direction, "where it comes from"),
     "wind_error_mps": Key(Range(-60.0, 60.0, "m/s"), _wind_error, "believed less true wind"),
     "isa_error_k": Key(Range(-30.0, 30.0, "K"), _isa_error, "believed less true temperature"),
     "roll_rate_factor": Key(FACTOR, _factor("max_roll_rate"), "true over believed"),

@@ -6,6 +6,7 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
+from relguide.contract.wanted import ACCEPTED
 from relguide.planning.inputs import Range
 
 
@@ -26,7 +27,9 @@ class Accepted:
                 return value
             raise ValueError(self.range.refusal(value))
 
-        return core_schema.no_info_after_validator_function(check, handler(source))
+        return core_schema.no_info_after_validator_function(
+            check, handler(source), metadata={ACCEPTED: self.range}
+        )
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler

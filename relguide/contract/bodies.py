@@ -20,6 +20,7 @@ from relguide.contract.other_bodies import CellList, Distance, Tas, TrafficList,
 from relguide.contract.places import (
     Altitude,
     Anchor,
+    Heading,
     Latitude,
     Longitude,
     Position,
@@ -72,7 +73,7 @@ class LocalPursuer(Strict):
     """East."""
     y_m: Position
     """North."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed, kept constant."""
@@ -91,7 +92,7 @@ class GeodeticPursuer(Strict):
     """WGS84."""
     lon_deg: Longitude
     """WGS84."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed, kept constant."""
@@ -110,7 +111,7 @@ class LocalLeader(Strict):
     """East."""
     y_m: Position
     """North."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed, kept constant."""
@@ -127,7 +128,7 @@ class GeodeticLeader(Strict):
     """WGS84."""
     lon_deg: Longitude
     """WGS84."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed, kept constant."""
@@ -140,7 +141,7 @@ class GeodeticLeader(Strict):
 class WindBody(Strict):
     """Uniform wind as reports give it."""
 
-    from_deg: float
+    from_deg: Heading
     """Where it comes from, clockwise from true north."""
     speed_mps: Annotated[float, Accepted(limits.WIND)]
     """How strong it is."""

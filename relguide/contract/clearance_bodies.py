@@ -17,6 +17,7 @@ from relguide.contract.messages import SpacingTime
 from relguide.contract.other_bodies import AnyTraffic, Distance, Ident, Tas
 from relguide.contract.places import (
     Altitude,
+    Heading,
     Latitude,
     Longitude,
     Position,
@@ -65,7 +66,7 @@ class LocalAircraft(Strict):
     """East."""
     y_m: Position
     """North."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed, kept constant."""
@@ -84,7 +85,7 @@ class GeodeticAircraft(Strict):
     """WGS84."""
     lon_deg: Longitude
     """WGS84."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed, kept constant."""
@@ -155,7 +156,7 @@ class ClearanceAnswer(Strict):
 
     answer: Literal["accepted", "unable", "standby", "cancelled", "terminated"]
     """cancelled: the clearance is taken back; terminated: who deviates is cleared no more."""
-    reason: ReasonCode | Literal[""] = ""
+    reason: Literal[ReasonCode, ""] = ""
     """Why, of unable; if left out, the controller's own."""
     message: Message = ""
     """In words; if left out, those of data link."""

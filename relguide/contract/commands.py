@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from relguide.contract.crew_lines import Deflection, Ident, Reported
 from relguide.contract.intent_bodies import Bank, ClimbRate
 from relguide.contract.other_bodies import Distance, Tas
-from relguide.contract.places import Altitude
+from relguide.contract.places import Altitude, Heading
 from relguide.contract.refusal import Strict
 from relguide.flying.engagement import Engagement
 from relguide.flying.plan_documents import Direction
@@ -44,7 +44,7 @@ class LeaderHeadingCommand(Strict):
 
     command: Literal["leader_heading"]
     """Which command it is."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     direction: Direction | None = None
     """Which way round; if left out, the shorter."""
@@ -115,7 +115,7 @@ class PursuerHeadingCommand(Strict):
 
     command: Literal["pursuer_heading"]
     """Which command it is."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     ident: Ident = ""
     """Of the pursuer; if left out, the first link's."""

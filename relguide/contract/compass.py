@@ -1,4 +1,7 @@
-"""Directions on the wire: degrees clockwise from north, written in [0, 360), read as any number."""
+"""Directions on the wire: degrees clockwise from north.
+
+They are written in [0, 360), and read up to twice round.
+"""
 
 from math import radians
 

@@ -15,7 +15,7 @@ from relguide.contract.accepted import Accepted
 from relguide.contract.compass import heading_of
 from relguide.contract.intent_bodies import Bank
 from relguide.contract.other_bodies import Distance, Tas
-from relguide.contract.places import Altitude, Position
+from relguide.contract.places import Altitude, Heading, Position
 from relguide.contract.refusal import TAG, Strict
 from relguide.flying.engagement import Engagement
 from relguide.flying.orders import (
@@ -48,7 +48,7 @@ class Reported(Strict):
     """East, in the plane of the flight."""
     y_m: Position
     """North."""
-    track_deg: float
+    track_deg: Heading
     """Direction of its ground velocity, clockwise from the plane's north."""
     ground_speed_mps: GroundSpeed
     """Over the ground."""
@@ -113,7 +113,7 @@ class EngagementOrder(CrewLine):
 class PursuerHeadingOrder(CrewLine):
     """The crew selects a heading, while guidance is not engaged."""
 
-    pursuer_heading_deg: float
+    pursuer_heading_deg: Heading
     """Clockwise from true north."""
 
     def command(self) -> CrewCommand:

@@ -183,7 +183,7 @@ def from_wire(source: bytes | str | Mapping[str, object], *, extra: Extra = "for
     try:
         model = _DOCUMENT.validate_python(content, extra=extra)
     except ValidationError as error:
-        raise refusal(error, content) from None
+        raise refusal(error, content, _DOCUMENT.core_schema) from None
     document: Document = _from_model(model)
     return document
 
@@ -200,7 +200,7 @@ def plan_from_wire(
     try:
         model = _plan_answers().validate_python(content, extra=extra)
     except ValidationError as error:
-        raise refusal(error, content) from None
+        raise refusal(error, content, _plan_answers().core_schema) from None
     answer: PlanCard | NoPlanCard = _from_model(model)
     return answer
 
@@ -222,7 +222,8 @@ def card_from_wire(
     try:
         model = model_of(card_type).model_validate(content, extra=extra)
     except ValidationError as error:
-        raise refusal(error, content) from None
+        schema = model_of(card_type).__pydantic_core_schema__
+        raise refusal(error, content, schema) from None
     card: Card = _from_model(model)
     return card
 

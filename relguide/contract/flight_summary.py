@@ -33,7 +33,7 @@ from relguide.flying.documents import (
     Unable,
 )
 from relguide.planning.phrases import distance, too_close
-from relguide.units import NM, Metre
+from relguide.units import NM, Metre, Second
 
 SummaryEvent = (
     LeaderChanged
@@ -158,7 +158,7 @@ def _figures_of(result: LinkResult, flight: FlightSummary, ended: FlightEnded) -
     said = [event for event in flight.events if event.ident == result.ident]
     return {
         "joined": result.joined,
-        "join_time_s": result.join_time,
+        "join_time_s": result.join_time if result.joined else None,
         "planned_time_s": result.planned_time,
         "promised_s": result.promised,
         "least_separation_m": result.least_separation,
@@ -169,7 +169,7 @@ def _figures_of(result: LinkResult, flight: FlightSummary, ended: FlightEnded) -
         "fallbacks": result.fallbacks,
         "track_nm": result.track / NM,
         "simulated_s": ended.t,
-        "over_optimum_s": result.join_time - result.optimum if result.optimum else None,
+        "over_optimum_s": _over_optimum(result),
         "along_error_m": result.along_error,
         "across_error_m": result.across_error,
         "losses": [
@@ -201,6 +201,10 @@ def _figures_of(result: LinkResult, flight: FlightSummary, ended: FlightEnded) -
         **({"least_other": to_wire(result.least_other[0])} if result.least_other else {}),
         **({"by_hand": to_wire(result.by_hand[0])} if result.by_hand else {}),
     }
+
+
+def _over_optimum(result: LinkResult) -> Second | None:
+    return result.join_time - result.optimum if result.joined and result.optimum else None
 
 
 def failures(flight: FlightSummary) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from relguide.contract.accepted import Accepted
 from relguide.contract.bodies import NamedSituationBody, WindBody, situation_from_body, wind_of
 from relguide.contract.follower_bodies import Queue, followers_from_body
 from relguide.contract.other_bodies import Ident
-from relguide.contract.places import Anchor
+from relguide.contract.places import Anchor, Heading
 from relguide.contract.refusal import ContractError, Strict
 from relguide.flying.air import GUSTS, ISA_DEVIATION, Air
 from relguide.flying.surveillance import (
@@ -42,7 +42,7 @@ class WindLevelBody(Strict):
 
     altitude_m: Annotated[float, Accepted(LEVELS)]
     """Pressure altitude."""
-    from_deg: float
+    from_deg: Heading
     """Where it comes from, clockwise from true north."""
     speed_mps: Annotated[float, Accepted(WIND)]
     """How strong it is."""

@@ -10,6 +10,7 @@ from relguide.contract.intent_bodies import Bank
 from relguide.contract.other_bodies import Ident, Tas
 from relguide.contract.places import (
     Anchor,
+    Heading,
     Latitude,
     Longitude,
     Position,
@@ -36,7 +37,7 @@ class LocalFollower(Strict):
     """East."""
     y_m: Position
     """North."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed V_P, kept until its spacing closes."""
@@ -53,7 +54,7 @@ class GeodeticFollower(Strict):
     """WGS84."""
     lon_deg: Longitude
     """WGS84."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed V_P, kept until its spacing closes."""

@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, Tag
 
 from relguide.contract.accepted import Accepted
 from relguide.contract.compass import heading_of
-from relguide.contract.places import Altitude
+from relguide.contract.places import Altitude, Heading
 from relguide.contract.refusal import Strict
 from relguide.flying.plan_documents import Direction
 from relguide.planning import limits
@@ -29,7 +29,7 @@ class StraightPiece(Strict):
 class TurnPiece(Strict):
     """A piece of intent: turn at constant bank."""
 
-    turn_to_heading_deg: float
+    turn_to_heading_deg: Heading
     """Heading to roll out on, clockwise from true north."""
     direction: Direction
     """Which way round."""

@@ -18,7 +18,7 @@ from relguide.contract.crew_lines import (
 )
 from relguide.contract.intent_bodies import ClimbRate
 from relguide.contract.other_bodies import Tas
-from relguide.contract.places import Altitude
+from relguide.contract.places import Altitude, Heading
 from relguide.contract.refusal import TAG, Strict
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.flying.orders import (
@@ -46,7 +46,7 @@ class LeaderLine(Strict):
 class HeadingOrder(LeaderLine):
     """The leader is to turn to a heading."""
 
-    leader_heading_deg: float
+    leader_heading_deg: Heading
     """Clockwise from true north."""
     direction: TurnChoice = "shorter"
     """Which way round."""

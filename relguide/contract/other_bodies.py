@@ -17,6 +17,7 @@ from relguide.contract.intent_bodies import Intent, intent_from_body
 from relguide.contract.places import (
     Altitude,
     Anchor,
+    Heading,
     Latitude,
     Longitude,
     PlaceOnPlane,
@@ -62,7 +63,7 @@ class LocalTraffic(Strict):
     """East."""
     y_m: Position
     """North."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed, kept constant."""
@@ -83,7 +84,7 @@ class GeodeticTraffic(Strict):
     """WGS84."""
     lon_deg: Longitude
     """WGS84."""
-    heading_deg: float
+    heading_deg: Heading
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed, kept constant."""

@@ -14,6 +14,7 @@ from relguide.planning.frames import LocalPlane
 from relguide.units import Metre
 
 Position = Annotated[float, Accepted(limits.POSITION)]
+Heading = Annotated[float, Accepted(limits.COMPASS)]
 Altitude = Annotated[float, Accepted(limits.ALTITUDE)]
 Latitude = Annotated[float, Field(ge=-90.0, le=90.0)]
 Longitude = Annotated[float, Field(ge=-180.0, le=180.0)]

@@ -9,6 +9,8 @@ from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationErro
 from pydantic_core import CoreSchema
 
 from relguide.contract.docs import field_docs
+from relguide.contract.wanted import TAG as TAG
+from relguide.contract.wanted import fields_at, unit_of, wanted, wanted_tags
 
 MAX_SAID = 8
 """How many defects the sentence of a refusal spells out."""
@@ -21,8 +23,6 @@ FLOWN_ONLY = ("air", "believed_air", "surveillance")
 MEANT = 0.7
 """How much an unknown field is like the one that is meant, from 0 to 1. A word of its name, as `x`
 of `x_m`, or another unit, as in `tas_kt`, will do as well."""
-TAG = "#"
-"""First character of the tags of `Discriminator`s, which distinguishes them from field names."""
 
 
 class Strict(BaseModel):
@@ -131,14 +131,20 @@ def parse(model: type[M], source: bytes | str | Mapping[str, object] | list[obje
     try:
         return model.model_validate(content)
     except ValidationError as error:
-        raise refusal(error, content) from None
+        raise refusal(error, content, model.__pydantic_core_schema__) from None
 
 
-def refusal(error: ValidationError, content: object) -> ContractError:
-    """Pydantic's findings about `content`, in our words."""
+def refusal(error: ValidationError, content: object, schema: Mapping[str, Any]) -> ContractError:
+    """Pydantic's findings about `content`, read by its core schema, in our words."""
     found: list[Any] = error.errors(include_url=False)[:MAX_LISTED]
     missing = [e["loc"] for e in found if e["type"] == "missing"]
-    problems = [(_path(e, content), _say_meant(e, missing) or _sentence(e)) for e in found]
+    problems = [
+        (
+            _path(e, content),
+            _say_wanted(e, schema) or _say_meant(e, missing, schema, content) or _sentence(e),
+        )
+        for e in found
+    ]
     named = [(path, text if path else f"This {text}") for path, text in problems]
     return ContractError(named, count=error.error_count())
 
@@ -183,7 +189,8 @@ def _path(error: Any, content: object) -> str:
             path += f"[{step}]"
             here = here[step] if isinstance(here, list) and step < len(here) else None
         elif not _is_tag(step, here):
-            path += f".{_shorten(step)}" if path else _shorten(step)
+            name = _shorten(step) or '""'
+            path += f".{name}" if path else name
             here = here.get(step) if isinstance(here, Mapping) else None
     if error["type"] in ("union_tag_invalid", "union_tag_not_found"):
         field = error["ctx"]["discriminator"].strip("'")
@@ -218,14 +225,14 @@ _SENTENCES = {
     "model_type": "must be an object with fields, not {given}.",
     "model_attributes_type": "must be an object with fields, not {given}.",
     "dict_type": "must be an object with fields, not {given}.",
-    "greater_than_equal": "must be at least {ge:.12g}, not {given}.",
-    "less_than_equal": "must be at most {le:.12g}, not {given}.",
+    "greater_than_equal": "must be at least {ge:.12g}{unit}, not {given}{unit}.",
+    "less_than_equal": "must be at most {le:.12g}{unit}, not {given}{unit}.",
     "literal_error": "must be {expected}, not {given}.",
     "value_error": "{error}",
     "union_tag_invalid": "must be one of {expected_tags}, not {tag}.",
     "union_tag_not_found": "is missing: it says what kind of object this is.",
     "too_long": "must have at most {max_length} entries, not {actual_length}.",
-    "too_short": "must have at least {min_length} entries.",
+    "too_short": "must have at least {min_length} entries, not {actual_length}.",
     "string_too_long": "must have at most {max_length} characters.",
     "string_too_short": "must have at least {min_length} characters.",
     "float_parsing": "must be a number, not {given}.",
@@ -250,11 +257,25 @@ def _sentence(error: Any, given: str = "") -> str:
     context = dict(error.get("ctx", {}))
     if "tag" in context:
         context["tag"] = _quote(context["tag"])
-    return sentence.format(**context, given=given)
+    return sentence.format(**context, given=given, unit=unit_of(error["loc"]))
 
 
-def _say_meant(error: Any, missing: Sequence[tuple[Any, ...]]) -> str:
-    """What an unknown field may be meant for, of those that are missing beside it; or nothing."""
+def _say_wanted(error: Any, schema: Mapping[str, Any]) -> str:
+    """What would be right in place of what is missing; or nothing."""
+    match error["type"]:
+        case "missing":
+            must = wanted(schema, error["loc"])
+        case "union_tag_not_found":
+            must = wanted_tags(schema, error["loc"])
+        case _:
+            return ""
+    return f"is missing: it {must}." if must else ""
+
+
+def _say_meant(
+    error: Any, missing: Sequence[tuple[Any, ...]], schema: Mapping[str, Any], content: object
+) -> str:
+    """What an unknown field may be meant for, of those that are not there beside it; or nothing."""
     if error["type"] != "extra_forbidden":
         return ""
     *where, name = error["loc"]
@@ -263,11 +284,28 @@ def _say_meant(error: Any, missing: Sequence[tuple[Any, ...]]) -> str:
             "belongs in the situation of a flight (relguide fly FILE, POST /api/v1/flights): "
             "no plan depends on it."
         )
-    beside = [str(last) for *place, last in missing if place == where]
-    meant = get_close_matches(str(name)[:MAX_QUOTED], beside, 1, MEANT) or [
-        one for one in beside if {str(name), _stem(str(name))} & {_stem(one), *one.split("_")}
+    there = _at(where, content)
+    needed = [str(last) for *place, last in missing if place == where]
+    other = [one for one in fields_at(schema, where) if one not in (*needed, *there)]
+    return _ask_about(str(name), needed) or _ask_about(str(name), other)
+
+
+def _ask_about(name: str, beside: Sequence[str]) -> str:
+    meant = get_close_matches(name[:MAX_QUOTED], beside, 1, MEANT) or [
+        one for one in beside if {name, _stem(name)} & {_stem(one), *one.split("_")}
     ]
     return f"is not a field of the contract: did you mean {meant[0]}?" if meant else ""
+
+
+def _at(location: Sequence[Any], content: object) -> Mapping[str, object]:
+    """The object at a place; an empty one where there is none."""
+    here = content
+    for step in location:
+        if isinstance(step, int):
+            here = here[step] if isinstance(here, list) and step < len(here) else None
+        elif not _is_tag(step, here):
+            here = here.get(step) if isinstance(here, Mapping) else None
+    return here if isinstance(here, Mapping) else {}
 
 
 def _stem(name: str) -> str:

@@ -94,8 +94,8 @@ class SimulationFigures(Strict):
 
     joined: bool
     """Whether the pursuer joined."""
-    join_time_s: float
-    """When it joined."""
+    join_time_s: float | None
+    """When it joined; null if it did not."""
     planned_time_s: float
     """Time to converge of the plan at engagement."""
     promised_s: float

@@ -15,7 +15,7 @@ from relguide.contract.accepted import Accepted
 from relguide.contract.compass import compass, heading_of
 from relguide.contract.moments import Moment, moment, utc
 from relguide.contract.other_bodies import Ident
-from relguide.contract.places import Altitude, Latitude, Longitude
+from relguide.contract.places import Altitude, Heading, Latitude, Longitude
 from relguide.contract.refusal import ContractError, Strict
 from relguide.planning.inputs import Range
 from relguide.units import Metre, Second
@@ -63,7 +63,7 @@ class ReportedAircraft(Strict):
     """WGS84."""
     lon_deg: Longitude
     """WGS84."""
-    track_deg: float
+    track_deg: Heading
     """Direction in which it moves over the ground, clockwise from true north."""
     ground_speed_mps: Annotated[float, Accepted(FASTEST)]
     """How fast it moves over the ground."""

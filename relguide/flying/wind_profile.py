@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from relguide.planning.inputs import Range, expect, expect_within
+from relguide.planning.limits import COMPASS
 from relguide.planning.reprs import as_code
 from relguide.planning.wind import Wind, wind_from
 from relguide.units import DEG, FT, KT, Metre
@@ -164,7 +165,8 @@ def _reader(columns: list[str], separator: str, path: str) -> Callable[[dict[str
             wind = Wind(east=east, north=north)
         else:
             assert speed is not None
-            direction = _number(cells, "from_deg", separator) * DEG
+            given = _number(cells, "from_deg", separator)
+            direction = expect_within("from_deg", given, *COMPASS) * DEG
             wind = wind_from(direction, _number(cells, speed, separator) * SPEEDS[speed])
         return WindLevel(expect_within("altitude", height, *LEVELS), wind)
 

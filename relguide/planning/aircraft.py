@@ -124,7 +124,7 @@ class Pursuer:
         return cls(
             x=x_nm * NM,
             y=y_nm * NM,
-            heading=heading_in_degrees(heading_deg),
+            heading=heading_in_degrees("heading_deg", heading_deg),
             tas=tas_kt * KT,
             max_bank=max_bank_deg * DEG,
         )
@@ -184,7 +184,7 @@ class Leader:
         return cls(
             x=x_nm * NM,
             y=y_nm * NM,
-            heading=heading_in_degrees(heading_deg),
+            heading=heading_in_degrees("heading_deg", heading_deg),
             tas=tas_kt * KT,
             intent=intent,
         )

@@ -30,6 +30,15 @@ class Range(NamedTuple):
         """The least and the largest value that are accepted: the bounds, to rounding."""
         return self.low - SLACK * abs(self.low), self.high + SLACK * abs(self.high)
 
+    @property
+    def span(self) -> str:
+        """The bounds with their unit."""
+        return f"{self.low:g} … {self.high:g}{self._behind}"
+
+    @property
+    def _behind(self) -> str:
+        return f" {self.unit}" if self.unit else ""
+
     @overload
     def admits(self, value: float) -> bool: ...
     @overload
@@ -43,9 +52,8 @@ class Range(NamedTuple):
         """What is wrong with a value outside; the name of what it is goes before it."""
         if not isfinite(value):
             return f"must be a finite number, not {value}."
-        unit = f" {self.unit}" if self.unit else ""
         meant = f" {self.meant}" if self.meant else ""
-        return f"must lie in {self.low:g} … {self.high:g}{unit}, not {value:.9g}{unit}.{meant}"
+        return f"must lie in {self.span}, not {value:.9g}{self._behind}.{meant}"
 
 
 def number(name: str, value: object) -> float:

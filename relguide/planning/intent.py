@@ -10,6 +10,7 @@ from relguide.planning.inputs import expect_within, number, text, turn_sign
 from relguide.planning.limits import (
     ALTITUDE,
     BANK,
+    COMPASS,
     DEGREES_MEANT,
     HEADING,
     MAX_PIECES,
@@ -34,9 +35,13 @@ def settle(piece: object, name: str, value: object) -> None:
     object.__setattr__(piece, name, value)
 
 
-def heading_in_degrees(degrees: float) -> Radian:
-    """A direction given in degrees, as often round as may be [rad]."""
-    return fmod(degrees, 360.0) * DEG
+def heading_in_degrees(name: str, degrees: object) -> Radian:
+    """A direction given in degrees, within `COMPASS` [rad].
+
+    Raises:
+        ValueError: for what is no number, or lies outside.
+    """
+    return fmod(expect_within(name, degrees, *COMPASS), 360.0) * DEG
 
 
 def expect_bank(name: str, value: object) -> Radian:
@@ -108,7 +113,8 @@ class TurnTo:
         if direction not in ("left", "right"):
             raise ValueError(f"direction must be 'left' or 'right', not {direction!r}.")
         turn = LEFT if direction == "left" else RIGHT
-        return cls(heading=heading_in_degrees(heading_deg), turn=turn, bank=bank_deg * DEG)
+        heading = heading_in_degrees("heading_deg", heading_deg)
+        return cls(heading=heading, turn=turn, bank=bank_deg * DEG)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)

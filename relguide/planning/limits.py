@@ -19,6 +19,8 @@ POSITION = Range(-1_000_000.0, 1_000_000.0, "m")
 """x and y."""
 HEADING = Range(-2.0 * tau, 2.0 * tau, "rad", DEGREES_MEANT)
 """Headings: twice round, which the sum of two may be; beyond, degrees were given as radians."""
+COMPASS = Range(-720.0, 720.0, "°")
+"""The same in degrees."""
 DISTANCE = Range(0.0, 200_000.0, "m")
 """D and d_min."""
 MOST_MILES = 60

@@ -96,11 +96,12 @@ class Situation:
         others: tuple[Other, ...] = (),
     ) -> "Situation":
         """In the units of aviation: nautical miles, knots, and where the wind comes from."""
+        direction = heading_in_degrees("wind_from_deg", wind_from_deg)
         return cls(
             pursuer=pursuer,
             leader=leader,
             slot_distance=slot_distance_nm * NM,
             min_separation=min_separation_nm * NM,
-            wind=wind_from(heading_in_degrees(wind_from_deg), wind_kt * KT) if wind_kt else CALM,
+            wind=wind_from(direction, wind_kt * KT) if wind_kt else CALM,
             others=others,
         )

@@ -146,6 +146,7 @@ def create_app(
         watching.start()
         workers.start(partial(preparation.can_plan_by, name), partial(load, name))
         yield
+        preparation.dismiss()
         await app.state.idempotency.stop()
         await feeds.stop()
         await workers.stop()

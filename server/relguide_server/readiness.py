@@ -32,7 +32,7 @@ from relguide.warm_up import (
     prepare,
     usual_jobs,
 )
-from relguide_server.http.errors import Refusal, log, run_logged
+from relguide_server.http.errors import Refusal, ServiceStopping, log, run_logged
 from relguide_server.records.service import RecordsReport
 from relguide_server.settings import ServiceSettings
 
@@ -48,6 +48,8 @@ AMID = "amid"
 """The step that situations with others need besides."""
 ON_DEMAND = ("proofs", "networks", "tree")
 """Steps that are compiled when a request first needs them."""
+STOP_FOLLOWS: Second = 1.0
+"""A signal to all processes ends those that compile; the service is stopped within so long."""
 USUAL_WAIT = 10
 """After so long a client may ask again while nothing is known of the pace [s]."""
 
@@ -151,11 +153,15 @@ class Preparation:
         )  # fmt: skip
         self._thread.start()
 
-    def stop(self) -> None:
-        """End it, with the processes that compile."""
+    def dismiss(self) -> None:
+        """Compile no more, and let nothing wait for it."""
         self._stopped.set()
         with self._changed:
             self._changed.notify_all()
+
+    def stop(self) -> None:
+        """End it, with the processes that compile."""
+        self.dismiss()
         if self._thread is not None:
             self._thread.join(1.0)
 
@@ -210,9 +216,15 @@ class Preparation:
         return max(1, min(30, ceil(left * (monotonic() - self._began) / state.kernels)))
 
     def wait(self, *steps: str) -> None:
-        """Wait, in a thread of one's own, until the kernels of some steps are compiled."""
+        """Wait, in a thread of one's own, until the kernels of some steps are compiled.
+
+        Raises:
+            ServiceStopping: if the service stops first.
+        """
         with self._changed:
             self._changed.wait_for(lambda: self.has(*steps) or self._stopped.is_set())
+        if not self.has(*steps):
+            raise ServiceStopping
 
     def can_plan_by(self, name: str) -> bool:
         """Whether all that a planner needs is compiled."""
@@ -283,7 +295,7 @@ class Preparation:
         if self.has("flying"):
             self._rehearse(rehearse)
         self._compile([name for name in self._steps if not self.has(name)], rehearse)
-        if not self._rehearsed:
+        if not self._rehearsed and not self._stopped.is_set():
             self._rehearse(rehearse)
         while not self._stopped.is_set():
             with self._changed:
@@ -300,7 +312,8 @@ class Preparation:
                 if not self._rehearsed and self.has("flying"):
                     self._rehearse(rehearse)
         except WarmUpError as error:
-            log.error("%s Kernels are compiled when they are first used instead.", error)
+            if not self._stopped.wait(STOP_FOLLOWS):
+                log.error("%s Kernels are compiled when they are first used instead.", error)
         if not self._stopped.is_set():
             self._note(None, wanted)
 

@@ -2,9 +2,11 @@
 
 import asyncio
 import gc
+import signal
 import socket
 import sys
 from functools import partial
+from types import FrameType
 from typing import Any
 
 import uvicorn
@@ -18,6 +20,7 @@ from relguide_server.flights.live_fleet import LiveFleet
 from relguide_server.http.errors import log
 from relguide_server.http.proxy import believed
 from relguide_server.jobs.worker_pool import WorkerPool
+from relguide_server.readiness import Preparation
 from relguide_server.settings import ServiceSettings
 
 TO_SAY_GOODBYE = 0.3
@@ -61,9 +64,20 @@ class Server(uvicorn.Server):
         self.servers = [Listener(ports, shares, begin)]  # type: ignore[list-item]
         self.started = True
 
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """Stop. SIGTERM is how a service is meant to end: it exits with 0, not by that signal."""
+        super().handle_exit(sig, frame)
+        if sig == signal.SIGTERM:
+            self._captured_signals.remove(sig)
+
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Stop: streams, jobs and bodies to come end with a sentence; requests have a second."""
         app = self._app()
+        preparation: Preparation = app.state.preparation
+        compiling = preparation.report()["preparing"]
+        left = "; its next start compiles what is left" if compiling else ""
+        log.info("The service is stopping%s.", left)
+        preparation.dismiss()
         fleet: LiveFleet = app.state.fleet
         workers: WorkerPool = app.state.workers
         fleet.dismiss()

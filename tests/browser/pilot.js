@@ -1,5 +1,6 @@
-// A controller in place of the browser's own: `pilot.stick` moves it, or the roll bar while `pilot.follows`.
-window.pilot = { stick: 0, follows: false, bar: 0 };
+// A controller in place of the browser's own: `pilot.stick` moves it, or the roll bar while
+// `pilot.follows`; it is unplugged while `pilot.unplugged`.
+window.pilot = { stick: 0, follows: false, unplugged: false, bar: 0 };
 {
   const Socket = window.WebSocket;
   window.WebSocket = class extends Socket {
@@ -17,7 +18,7 @@ window.pilot = { stick: 0, follows: false, bar: 0 };
   navigator.getGamepads = () => [
     {
       id: "Scripted stick (Vendor: 0000)",
-      connected: true,
+      connected: !pilot.unplugged,
       axes: [pilot.follows ? deflection() : pilot.stick, 0],
     },
   ];

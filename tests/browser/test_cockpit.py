@@ -14,6 +14,13 @@ from tests.browser.service import Service, Watch
 
 CUT = (Path(__file__).parent / "cut.js").read_text()
 """Lists everything on the page that does not fit where it stands."""
+COVERED = """() => [...document.querySelectorAll(".panel, .scene")].flatMap((panel) => {
+  const buttons = [...panel.querySelectorAll("header button")]
+    .map((each) => each.getBoundingClientRect());
+  return buttons.flatMap((each, k) =>
+    buttons.slice(k + 1).some(({ left }) => left < each.right - 1) ? [panel.innerText] : []);
+})"""
+"""Heads of panels in which a button covers the one after it."""
 BOTTOM = "(element) => element.getBoundingClientRect().bottom"
 """Where an element ends, from the top of the window [px]."""
 MOVED = 700
@@ -110,11 +117,27 @@ def test_another_scenario_starts_a_new_flight(page: Page, watched: Watch) -> Non
     assert watched.complaints == []
 
 
-@pytest.mark.parametrize("size", [(1440, 900), (1024, 768)], ids=["1440x900", "1024x768"])
+@pytest.mark.parametrize(
+    "size",
+    [(1024, 768), (1280, 800), (1366, 768), (1440, 900), (1920, 1080)],
+    ids=lambda size: f"{size[0]}x{size[1]}",
+)
 def test_nothing_is_cut(page: Page, watched: Watch, size: tuple[int, int]) -> None:
     page.set_viewport_size({"width": size[0], "height": size[1]})
     page.wait_for_timeout(MOVED)
     assert page.evaluate(CUT) == []
+    assert watched.complaints == []
+
+
+@pytest.mark.parametrize("size", [(1024, 768), (1280, 800)], ids=["1024x768", "1280x800"])
+def test_the_page_stands_still_under_the_flight_display(
+    page: Page, watched: Watch, size: tuple[int, int]
+) -> None:
+    """Its panels are scrolled where they have no room, and nothing else."""
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.get_by_role("button", name="PFD", exact=True).click()
+    expect(page.locator(".pfd-panel")).to_be_visible()
+    assert page.evaluate("document.scrollingElement.scrollHeight") <= size[1]
     assert watched.complaints == []
 
 
@@ -210,6 +233,7 @@ def test_any_screen_is_read_without_scrolling_sideways(
           .map((each) => `${each.tagName}.${each.className}`)"""
     )
     assert wide == []
+    assert page.evaluate(COVERED) == []
     assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
     assert watched.complaints == []
 

@@ -98,6 +98,32 @@ def test_the_keyboard_alone_flies(
     assert_flown_again(sky, flown, heard, tmp_path, sticks=5)
 
 
+def test_a_controller_unplugged_in_a_turn_stops_the_roll_and_flies_again_once_it_was_let_go(
+    page: Page, flown: str, heard: Heard
+) -> None:
+    told = page.locator(".panel.stick [role=alert]")
+    take_control(page)
+    page.evaluate("pilot.stick = 0.4")
+    bank_of(page, heard, 10.0)
+    page.evaluate("pilot.unplugged = true")
+    expect(told).to_have_text(
+        "Scripted stick is gone: stick neutral. You have control, by keys and by this panel."
+    )
+    page.wait_for_timeout(1000)
+    held = heard[max(heard)]["aircraft"][0]["bank_deg"]
+    page.evaluate("pilot.unplugged = false")
+    expect(told).to_have_text("Scripted stick is back: let go of its stick once, then it flies.")
+    page.wait_for_timeout(1000)
+    assert abs(heard[max(heard)]["aircraft"][0]["bank_deg"] - held) < 1.0
+    page.evaluate("pilot.stick = 0")
+    expect(told).to_have_text("Scripted stick flies again.")
+    page.evaluate("pilot.stick = -0.4")
+    bank_of(page, heard, -10.0)
+    expect(told).to_have_text("")
+    page.evaluate("pilot.stick = 0")
+    give_back(page)
+
+
 def test_one_page_has_control_and_whoever_closes_it_gives_it_back(
     browser: Browser, page: Page, sky: Service, flown: str
 ) -> None:

@@ -156,7 +156,7 @@ def test_a_batch_of_lines_is_answered_by_lines_and_a_wrong_one_spoils_itself_onl
     answers = [json.loads(line) for line in answer.text.splitlines()]
     assert [a["status"] for a in answers] == ["planned", "invalid", "invalid", "planned"]
     assert [a.get("id") for a in answers] == ["one", None, 2, None]
-    assert "pursuer: is missing." in answers[2]["message"]
+    assert "pursuer: is missing: it must be an object with x_m, " in answers[2]["message"]
 
 
 def test_a_body_full_of_mistakes_is_answered_by_twenty(client: TestClient) -> None:
@@ -248,7 +248,7 @@ def test_a_field_without_its_unit_is_told_the_name_that_is_meant(client: TestCli
     answer = client.post("/api/v1/plans", json={**EXAMPLE, "pursuer": pursuer})
     errors = is_problem(answer, 422, "/api/v1/plans")["errors"]
     assert {error["path"]: error["message"] for error in errors} == {
-        "pursuer.heading_deg": "is missing.",
+        "pursuer.heading_deg": "is missing: it must lie in -720 … 720 °.",
         "pursuer.heading": "is not a field of the contract: did you mean heading_deg?",
         "pursuer.colour": "is not a field of the contract: leave it out.",
     }

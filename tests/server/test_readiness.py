@@ -9,7 +9,7 @@ import pytest
 from relguide_server import readiness as module
 from relguide_server.app import create_app
 from relguide_server.flights.catalogue import library_catalogue
-from relguide_server.http.errors import Refusal
+from relguide_server.http.errors import Refusal, run_logged
 from relguide_server.planning.plans import EXAMPLE
 from relguide_server.readiness import ON_DEMAND, Preparation, steps_for
 from relguide_server.settings import ServiceSettings
@@ -216,6 +216,27 @@ def test_a_flight_waits_and_a_request_does_not(compiled: Compiling) -> None:
     flight.join(20.0)
     assert answers == [plan(situation)]
     preparation.stop()
+
+
+def test_what_waits_as_the_service_stops_ends_quietly(
+    compiled: Compiling, caplog: pytest.LogCaptureFixture
+) -> None:
+    preparation = Preparation(STEPS_SERVED)
+    preparation.start(lambda: None)
+    compiled("flying")
+    _until(lambda: preparation.has("flying"))
+    situation = next(s for s, _ in golden("reference") if plan_at_once(s) is None)
+    patient = preparation.guard(plan, "exact", waiting=True)
+    ends: list[bool] = []
+    flight = threading.Thread(
+        target=lambda: ends.append(run_logged("A flight", lambda: patient(situation) and None))
+    )
+    flight.start()
+    preparation.dismiss()
+    flight.join(20.0)
+    preparation.stop()
+    assert ends == [True]
+    assert not caplog.records
 
 
 def test_kernels_that_cannot_be_compiled_ahead_hold_nobody_up(

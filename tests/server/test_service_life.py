@@ -11,6 +11,7 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import httpx2 as httpx
@@ -188,6 +189,39 @@ def test_a_signal_ends_it_within_three_seconds_under_load() -> None:
     finally:
         service.kill()
         service.wait()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("all_processes", [False, True])
+def test_a_signal_ends_it_quietly_while_it_compiles(all_processes: bool, tmp_path: Path) -> None:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    service = subprocess.Popen(
+        [sys.executable, "-m", "relguide", "serve", "--port", str(port)],
+        env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path), "RELGUIDE_DATA": str(tmp_path)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    url = f"http://127.0.0.1:{port}"
+    try:
+        wait_until(lambda: answers(url))
+        wait_until(lambda: httpx.get(f"{url}/readyz").json()["preparing"] is not None)
+        if all_processes:
+            os.killpg(service.pid, signal.SIGTERM)
+        else:
+            service.terminate()
+        _, said = service.communicate(timeout=20.0)
+    finally:
+        service.kill()
+        service.wait()
+    assert service.returncode == 0
+    lines = [line for line in said.splitlines() if not line.startswith("Compiling kernels")]
+    assert len(lines) == 1
+    assert " INFO " in lines[0]
+    assert lines[0].endswith("The service is stopping; its next start compiles what is left.")
 
 
 def answers(url: str) -> bool:

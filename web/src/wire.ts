@@ -1,7 +1,7 @@
 // Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-4d3e8feea5cf";
+export const PROTOCOL = "relguide-eab1000f38f8";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -559,7 +559,21 @@ export interface CellCard {
 /** What the controller says to a request, or does with a clearance. */
 export interface ClearanceAnswer {
   answer: "accepted" | "unable" | "standby" | "cancelled" | "terminated";
-  reason?: ReasonCode | "";
+  reason?:
+    | "separation"
+    | "airspace"
+    | "bank"
+    | "speed"
+    | "leader_disagrees"
+    | "traffic_without_intent"
+    | "stale_picture"
+    | "expired"
+    | "horizon"
+    | "slot_taken"
+    | "conformance"
+    | "crew"
+    | "controller"
+    | "";
   message?: string;
 }
 

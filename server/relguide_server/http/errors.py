@@ -77,6 +77,15 @@ class Refusal(HTTPException):
         self.errors = tuple(errors)
 
 
+class ServiceStopping(Refusal):
+    """What waits is answered no more, since the service stops."""
+
+    def __init__(self) -> None:
+        """With when to try again."""
+        detail = "The service is stopping: it may be back in a moment."
+        super().__init__(503, detail, kind="stopping", headers={"Retry-After": "5"})
+
+
 def refusal_of(error: ContractError, status: int = 422, *, under: str = "") -> Refusal:
     """What the contract refuses.
 
@@ -251,10 +260,12 @@ def run_logged(name: str, work: Callable[[], None]) -> bool:
     """Run the work of a thread; an error in it goes to the log and does not end the process.
 
     Returns:
-        Whether it ran to its end.
+        Whether it ran to its end, or until the service stopped.
     """
     try:
         work()
+    except ServiceStopping:
+        return True
     except Exception:
         log.exception("%s stopped by a mistake of ours", name)
         return False

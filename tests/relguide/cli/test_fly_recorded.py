@@ -47,7 +47,7 @@ def test_positions_without_a_name_are_flown_behind(run: Run) -> None:
         (("notes.txt",), "column timestamp is missing. Found: no table."),
         (("notes.md",), "Flown are situations (.json) and tables of OpenSky, traffic or "),
         (("missing.csv",), "No such file"),
-        (("states.json",), "leader: is missing."),
+        (("states.json",), "leader: is missing: it must be an object with x_m, "),
         (("states.json",), "Flown are situations (.json) and tables of OpenSky, traffic or "),
     ],
 )

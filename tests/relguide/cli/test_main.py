@@ -151,7 +151,10 @@ def test_the_network_plans_a_situation_and_a_batch(run: Run) -> None:
             change("pursuer.tas_mps", "fast"),
             'pursuer.tas_mps: must be a number, not the text "fast".',
         ),
-        (change("pursuer.tas_mps", ...), "pursuer.tas_mps: is missing."),
+        (
+            change("pursuer.tas_mps", ...),
+            "pursuer.tas_mps: is missing: it must lie in 30 … 400 m/s.",
+        ),
     ],
 )
 def test_a_bad_situation_is_misuse(run: Run, content: Any, sentence: str) -> None:

@@ -1,6 +1,7 @@
 """Situations as outsiders send them, and how bad ones are refused."""
 
 import json
+import re
 from math import atan2, hypot, pi
 from pathlib import Path
 from typing import Any
@@ -77,14 +78,39 @@ def test_a_field_without_its_unit_is_asked_about(given: str, meant: str) -> None
 
 
 @pytest.mark.parametrize(
+    ("path", "meant"),
+    [("pursuer.altitude_ft", "altitude_m"), ("leader.intents", "intent"), ("wnd", "wind")],
+)
+def test_a_field_that_may_be_left_out_is_asked_about_too(path: str, meant: str) -> None:
+    body = change(path, 1)
+    owner = body[path.partition(".")[0]] if "." in path else body
+    owner.pop(meant, None)
+    assert problem_of(body) == (path, f"is not a field of the contract: did you mean {meant}?")
+
+
+@pytest.mark.parametrize(
     ("path", "value", "where", "sentence"),
     [
-        ("pursuer.tas_mps", ..., "pursuer.tas_mps", "is missing."),
+        (
+            "pursuer",
+            ...,
+            "pursuer",
+            "is missing: it must be an object with x_m, y_m, heading_deg, ",
+        ),
+        ("pursuer.tas_mps", ..., "pursuer.tas_mps", "is missing: it must lie in 30 … 400 m/s."),
+        (
+            "leader.intent.1.direction",
+            ...,
+            "leader.intent[1].direction",
+            "is missing: it must be 'left' or 'right'.",
+        ),
         ("pursuer.tas_mps", True, "pursuer.tas_mps", "must be a number, not true."),
         ("pursuer.tas_mps", "235", "pursuer.tas_mps", 'must be a number, not the text "235".'),
         ("pursuer.tas_mps", None, "pursuer.tas_mps", "must be a number, not null."),
         ("pursuer.tas_mps", 29.9, "pursuer.tas_mps", "must lie in 30 … 400 m/s, not 29.9 m/s."),
         ("leader.tas_mps", 400.1, "leader.tas_mps", "must lie in 30 … 400 m/s, not 400.1 m/s."),
+        ("pursuer.", 1, 'pursuer.""', "is not a field of the contract: leave it out."),
+        ("", 1, '""', "is not a field of the contract: leave it out."),
         ("pursuer.tas_kt", 1, "pursuer.tas_kt", "is not a field of the contract: leave it out."),
         ("pursuer.x_m", 10**400, "pursuer.x_m", "is too large a number to be read."),
         ("pursuer.x_m", 1000001, "pursuer.x_m", "must lie in -1e+06 … 1e+06 m, not 1000001 m."),
@@ -100,7 +126,7 @@ def test_a_field_without_its_unit_is_asked_about(given: str, meant: str) -> None
             "leader.intent[0].straight_s",
             "must lie in 0 … 86400 s",
         ),
-        ("leader.intent", [{}], "leader.intent[0].straight_s", "is missing."),
+        ("leader.intent", [{}], "leader.intent[0].straight_s", "is missing: it must lie in 0 … 8"),
         ("leader.intent", [7], "leader.intent[0]", "must be an object with fields, not 7."),
         ("leader.intent", [{"straight_s": 1}] * 21, "leader.intent", "must have at most 20"),
         ("leader.intent", None, "leader.intent", "must be a list, not null."),
@@ -128,10 +154,21 @@ def test_the_bounds_themselves_are_accepted(bank: float) -> None:
     assert situation_from_json(change("pursuer.max_bank_deg", bank))
 
 
-@pytest.mark.parametrize("heading", [-720.0, 450, 1e308])
-def test_any_finite_heading_is_accepted(heading: float) -> None:
+@pytest.mark.parametrize("heading", [-720.0, 450, 720.0])
+def test_headings_up_to_twice_round_are_accepted(heading: float) -> None:
     situation, _ = situation_from_json(change("pursuer.heading_deg", heading))
     assert 0.0 <= situation.pursuer.heading <= 2.0 * pi
+
+
+@pytest.mark.parametrize(
+    "path", ["pursuer.heading_deg", "leader.intent.1.turn_to_heading_deg", "wind.from_deg"]
+)
+@pytest.mark.parametrize("heading", [4000, -720.1, 1e308])
+def test_headings_further_round_are_refused_as_the_library_does(path: str, heading: float) -> None:
+    said = f"must lie in -720 … 720 °, not {heading:.9g} °."
+    assert problem_of(change(path, heading))[1] == said
+    with pytest.raises(ValueError, match=re.escape(f"heading_deg {said}")):
+        TurnTo.from_display(heading_deg=heading, direction="left", bank_deg=20.0)
 
 
 @pytest.mark.parametrize(
@@ -259,6 +296,11 @@ def test_a_pursuer_at_a_pole_has_a_heading(pole: float) -> None:
     assert abs(start["lat_deg"]) == pytest.approx(90.0)
     # along the meridian of 30° the pole's north is the plane's
     assert situation.pursuer.heading / DEG == pytest.approx(90.0, abs=1e-6)
+
+
+def test_a_latitude_beyond_the_poles_is_refused_with_its_unit() -> None:
+    _, message = problem_of(on_earth((91.0, 1.4), (49.0, 2.0)))
+    assert message == "must be at most 90 °, not 91.0 °."
 
 
 @pytest.mark.parametrize("pursuer", [(-49.0, -178.0), (10.0, 2.0)])

@@ -114,7 +114,7 @@ def test_an_answer_carries_its_id(name: Any, wanted: Wanted) -> None:
     assert (reply["id"], reply["status"]) == (name, "planned")
     refused = one({"id": name}, wanted)
     assert (refused["id"], refused["status"]) == (name, "invalid")
-    assert "pursuer: is missing." in refused["message"]
+    assert "pursuer: is missing: it must be an object with x_m, " in refused["message"]
 
 
 @pytest.mark.parametrize("name", [True, 1.5, None, [], 2**70, "\ud800", "a" * 201])

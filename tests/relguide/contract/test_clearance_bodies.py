@@ -6,6 +6,7 @@ import pytest
 from pydantic import RootModel
 
 from relguide.contract.clearance_bodies import (
+    ClearanceAnswer,
     ClearanceRequest,
     DistanceGoal,
     FlightClearanceRequest,
@@ -40,6 +41,14 @@ def test_a_flight_needs_its_id_alone() -> None:
     request = read({"flight_id": "3f2a9c0d71be"})
     assert isinstance(request, FlightClearanceRequest)
     assert request.clearance_type == "capture_then_maintain"
+
+
+def test_a_reason_that_is_none_is_refused_once() -> None:
+    with pytest.raises(
+        ContractError, match=r"^reason: must be 'separation', .* not the text"
+    ) as no:
+        parse(ClearanceAnswer, {"answer": "unable", "reason": "late"})
+    assert no.value.count == 1
 
 
 def test_the_goal_names_its_unit_by_its_type() -> None:

@@ -107,6 +107,15 @@ def test_not_joining_is_a_failure() -> None:
     )
 
 
+def test_what_did_not_join_has_no_time_of_joining() -> None:
+    result = replace(RESULT, join_time=720.0, optimum=580.0)
+    joined = figures(summarize([STARTED, SAMPLE, end_of_flight(result)]))
+    assert (joined["join_time_s"], joined["over_optimum_s"]) == (720.0, 140.0)
+    lost = figures(summarize([STARTED, SAMPLE, end_of_flight(replace(result, joined=False))]))
+    assert (lost["joined"], lost["join_time_s"], lost["over_optimum_s"]) == (False, None, None)
+    assert lost["simulated_s"] == 720.0
+
+
 def test_of_several_links_each_is_judged_by_its_own_limit() -> None:
     wide = replace(LINK, pursuer="C", leader="A", min_separation=6.0 * NM)
     started = replace(STARTED, links=(LINK, wide))

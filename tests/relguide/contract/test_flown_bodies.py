@@ -90,7 +90,11 @@ def test_the_leader_is_seen_exactly_or_by_reports() -> None:
         ({"air": {"gusts_mps": 11}}, "air.gusts_mps", "0 … 10 m/s"),
         ({"air": {"isa_deviation_k": -61}}, "air.isa_deviation_k", "-60 … 60 K"),
         ({"air": {"temperature_k": 5}}, "air.temperature_k", "is not a field"),
-        ({"surveillance": {"nacp": 8}}, "surveillance.kind", "is missing"),
+        (
+            {"surveillance": {"nacp": 8}},
+            "surveillance.kind",
+            "is missing: it must be 'exact' or 'adsb'.",
+        ),
         ({"surveillance": {"kind": "radar"}}, "surveillance.kind", "must be"),
         ({"surveillance": {"kind": "adsb", "nacp": 12}}, "surveillance.nacp", "at most 11"),
         ({"surveillance": {"kind": "adsb", "nacp": 8.5}}, "surveillance.nacp", "whole number"),

@@ -95,7 +95,7 @@ WRONG: list[tuple[str, Any, str, str]] = [
         "leader.intent.0",
         {"level_change": {"to_altitude_m": 1}},
         "leader.intent[0].level_change.rate_mps",
-        "is missing.",
+        "is missing: it must lie in 0.5 … 60 m/s.",
     ),
     (
         "traffic.0.intent.1.level_change.rate_mps",
@@ -119,7 +119,7 @@ WRONG: list[tuple[str, Any, str, str]] = [
     ("traffic.1.ident", "BAW12", "traffic[1].ident", "is that of traffic[0] already: give each"),
     ("cells.1.ident", "BAW12", "cells[1].ident", "is that of traffic[0] already: give each its"),
     ("traffic.0.tas_mps", 10, "traffic[0].tas_mps", "must lie in 30 … 400 m/s, not 10 m/s."),
-    ("traffic.0.x_m", ..., "traffic[0].x_m", "is missing."),
+    ("traffic.0.x_m", ..., "traffic[0].x_m", "is missing: it must lie in -1e+06 … 1e+06 m."),
     ("traffic.0.max_bank_deg", 25, "traffic[0].max_bank_deg", "is not a field of the contract"),
     (
         "traffic.0.min_separation_m",
@@ -134,7 +134,7 @@ WRONG: list[tuple[str, Any, str, str]] = [
         "must be placed by x_m, y_m, as pursuer and leader are.",
     ),
     ("cells.0.disc.radius_m", 0, "cells[0].disc.radius_m", "must lie in 1 … 500000 m, not 0 m."),
-    ("cells.0.disc", ..., "cells[0].disc", "is missing."),
+    ("cells.0.disc", ..., "cells[0].disc", "is missing: it must be an object with x_m, y_m "),
     ("cells.1.disc", {}, "cells[1].disc", "is not a field of the contract: leave it out."),
     (
         "cells.0.disc",
@@ -143,9 +143,14 @@ WRONG: list[tuple[str, Any, str, str]] = [
         "must be placed by x_m, y_m, as",
     ),
     ("cells.0.velocity_mps", [151, 0], "cells[0].velocity_mps[0]", "must lie in -150 … 150 m/s"),
-    ("cells.0.velocity_mps", [1], "cells[0].velocity_mps", "must have at least 2 entries."),
+    ("cells.0.velocity_mps", [1], "cells[0].velocity_mps", "must have at least 2 entries, not 1."),
     ("cells.0.growth_mps", -1, "cells[0].growth_mps", "must lie in 0 … 50 m/s, not -1 m/s."),
-    ("cells.1.polygon", [[0, 0], [1e4, 0]], "cells[1].polygon", "must have at least 3 entries."),
+    (
+        "cells.1.polygon",
+        [[0, 0], [1e4, 0]],
+        "cells[1].polygon",
+        "must have at least 3 entries, not 2.",
+    ),
     ("cells.1.polygon.0", [1, 2, 3], "cells[1].polygon[0]", "must have at most 2 entries, not 3."),
     ("cells.1.polygon.0", [1, 2e6], "cells[1].polygon[0][1]", "must lie in -1e+06 … 1e+06 m"),
     (
@@ -379,7 +384,7 @@ def test_places_and_directions_are_those_of_the_earth() -> None:
     ("path", "value", "where", "sentence"),
     [
         ("traffic.0.lat_deg", -50, "traffic[0].lat_deg, traffic[0].lon_deg", "must lie within 10"),
-        ("cells.0.disc.lat_deg", 91, "cells[0].disc.lat_deg", "must be at most 90, not 91."),
+        ("cells.0.disc.lat_deg", 91, "cells[0].disc.lat_deg", "must be at most 90 °, not 91 °."),
         (
             "cells.1.polygon.1",
             {"lat_deg": -47, "lon_deg": 179},

@@ -163,7 +163,7 @@ def test_of_a_compressed_file_cut_short_too(tmp_path: Path) -> None:
         (b"\n", "line 3: This is not JSON"),
         (b"{]\n", "line 3: This is not JSON"),
         (b'"sample"\n', "line 3: This must be"),
-        (b'{"kind":"sample"}\n', "line 3: t_s: is missing."),
+        (b'{"kind":"sample"}\n', "line 3: t_s: is missing: it must be a number [s]."),
         (b'{"kind":"dive"}\n', "line 3: kind: must be one of"),
         (b"\xff\xff\n", "line 3: This is not UTF-8 text"),
         (b"[" * 100_000 + b"\n", "line 3: This is nested too deeply"),

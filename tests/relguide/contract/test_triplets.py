@@ -32,7 +32,7 @@ def test_triplets_are_read_in_the_papers_order() -> None:
 @pytest.mark.parametrize(
     ("body", "path", "sentence"),
     [
-        ({}, "triplets", "is missing."),
+        ({}, "triplets", "is missing: it must be a list."),
         ({"triplets": [{**PAIR, "epsilon": 0}]}, "triplets[0].epsilon", "must be 1 (left)"),
         ({"triplets": [{**PAIR, "epsilon": True}]}, "triplets[0].epsilon", "must be a whole"),
         ({"triplets": [{**PAIR, "theta_deg": -1}]}, "triplets[0].theta_deg", "must be at least 0"),

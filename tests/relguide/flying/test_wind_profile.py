@@ -118,6 +118,7 @@ def test_files_are_read_whatever_their_units(text: str, tmp_path: Path) -> None:
         ("altitude_m,u,v\n1,2,300\n", r"line 2: wind\.speed must lie in 0 … 150 m/s, not 300"),
         ("altitude_m,u,v\n1e6,2,3\n", r"line 2: altitude must lie in -1000 … 50000 m"),
         ("altitude_m,from_deg,speed_kt\n1,270,-3\n", r"line 2: wind speed must lie in 0 … 150"),
+        ("altitude_m,from_deg,speed_kt\n1,4e3,3\n", r"from_deg must lie in -720 … 720 °, not 4000"),
         ("altitude_m,u,v\n1,2,3\n1,3,3\n", r"winds\.csv: levels must have one wind at 1 m"),
         ("altitude_m,u,v\n", r"winds\.csv: levels must have at least one altitude"),
     ],

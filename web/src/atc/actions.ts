@@ -17,6 +17,9 @@ export interface Actions {
   demo(): void;
 }
 
+/** Of a demonstration that was begun beside a recording. */
+const ELSEWHERE = "Five flights ask. Load this page again to leave the recording and see them.";
+
 export function createActions(station: Station, address: string, protocol: string): Actions {
   const { store, view, link, notice, file, busy } = station;
   let stream: Stream | null = null;
@@ -83,8 +86,8 @@ export function createActions(station: Station, address: string, protocol: strin
         busy.value = sentence;
       }).then((sentence) => {
         busy.value = "";
-        notice.value = sentence;
-        if (sentence === "" && file.value === "") openTab(station, "");
+        notice.value = sentence || (file.value === "" ? "" : ELSEWHERE);
+        if (notice.value === "") openTab(station, "");
       });
     },
   };

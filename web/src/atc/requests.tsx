@@ -19,13 +19,14 @@ export function RequestList({ station }: { station: Station }) {
       list.current?.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
   }, [chosen]);
   const waiting = requests.value.filter(isWaiting).length;
+  const ended = station.store.sky.value.clearances.size; // of an empty list
   const isListed = requests.value.some(({ id }) => id === chosen);
   return (
     <section class="atc-panel atc-requests" aria-labelledby="requests">
       <header>
         <h2 id="requests">Requests</h2>
         <span class="count">{waiting} waiting</span>
-        <label>
+        <label title="Those, too, that ended more than a minute ago">
           <input
             type="checkbox"
             checked={all.value}
@@ -33,11 +34,16 @@ export function RequestList({ station }: { station: Station }) {
               all.value = !all.value;
             }}
           />
-          with those over
+          show ended
         </label>
       </header>
       {requests.value.length === 0 ? (
-        <p class="hint">Nothing is asked for. A crew asks when it arms guidance.</p>
+        <p class="hint">
+          Nothing is asked for now.{" "}
+          {ended === 0
+            ? "A crew asks when it arms guidance."
+            : `${ended} ended: tick “show ended” to see ${ended === 1 ? "it" : "them"}.`}
+        </p>
       ) : (
         <div
           ref={list}

@@ -1,6 +1,13 @@
 /** A sky as the controllers' documents tell of it: a fold, one document after the other. */
 
-import type { AirspaceCard, AtcDocument, ClearanceCard, TrafficCard } from "../wire";
+import type {
+  AirspaceCard,
+  AtcDocument,
+  ClearanceCard,
+  Expired,
+  StateChange,
+  TrafficCard,
+} from "../wire";
 
 export interface Sky {
   /** Empty: the one on the earth; else the flight whose sky it is. */
@@ -14,10 +21,13 @@ export interface Sky {
   readonly clearances: ReadonlyMap<string, ClearanceCard>;
 }
 
+/** The sky of a flight of which no more is known than that it flies. */
+const UNNAMED = "A flight";
+
 export function emptySky(id: string): Sky {
   return {
     id,
-    title: id === "" ? "All traffic" : `Flight ${id}`,
+    title: id === "" ? "All traffic" : UNNAMED,
     t: Number.NEGATIVE_INFINITY,
     aircraft: [],
     airspaces: [],
@@ -35,14 +45,19 @@ export function fold(sky: Sky, document: AtcDocument): Sky {
     }
     case "clearance_changed": {
       const { clearance } = document;
-      return { ...now, clearances: new Map(sky.clearances).set(clearance.id, clearance) };
+      const named = `${clearance.aircraft} behind ${clearance.traffic_id}`;
+      return {
+        ...now,
+        title: sky.title === UNNAMED ? named : sky.title,
+        clearances: new Map(sky.clearances).set(clearance.id, clearance),
+      };
     }
     case "probe_changed":
       return change(now, document.id, { validation: [document.validation] });
     case "conformance":
       return change(now, document.id, { deviations: document.deviations });
     case "expired":
-      return change(now, document.id, { state: "expired" });
+      return expire(now, document);
   }
 }
 
@@ -50,6 +65,14 @@ function change(sky: Sky, id: string, part: Partial<ClearanceCard>): Sky {
   const before = sky.clearances.get(id);
   if (before === undefined) return sky;
   return { ...sky, clearances: new Map(sky.clearances).set(id, { ...before, ...part }) };
+}
+
+/** What has expired says when and why, whether or not its card was told as well. */
+function expire(sky: Sky, { id, t_s, message }: Expired): Sky {
+  const history = sky.clearances.get(id)?.history ?? [];
+  if (history.at(-1)?.state === "expired") return change(sky, id, { state: "expired" });
+  const step: StateChange = { state: "expired", t_s, at: "", by: "service", message };
+  return change(sky, id, { state: "expired", history: [...history, step] });
 }
 
 /** The aircraft of that name, if it is seen. */

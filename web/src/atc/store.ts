@@ -48,6 +48,12 @@ const UNKNOWN = "The service does not know this clearance any more.";
 /** A sky that was not heard of for so long, while others were, is gone [ms]. */
 const GONE = 60_000;
 
+/** Of a flight that has ended, what is told last are its requests, which are over as well. */
+function isEmpty({ id, aircraft, clearances }: Sky): boolean {
+  if (id === "" || aircraft.length > 0 || clearances.size === 0) return false;
+  return [...clearances.values()].every(isOver);
+}
+
 export function createAtcStore(): AtcStore {
   const histories: Histories = new Map();
   /** When each sky was heard of last, and when any was. */
@@ -63,8 +69,10 @@ export function createAtcStore(): AtcStore {
   });
   const skies = computed(() => {
     revision.value;
-    const isThere = ({ id }: Sky) => id === tab.value || last - (heardOf.get(id) ?? last) < GONE;
-    const all = [...histories.values()].map(newest).filter(isThere);
+    const isThere = ({ id }: Sky) => last - (heardOf.get(id) ?? last) < GONE;
+    const all = [...histories.values()]
+      .map(newest)
+      .filter((each) => each.id === tab.value || (isThere(each) && !isEmpty(each)));
     return [...all.filter(({ id }) => id === ""), ...all.filter(({ id }) => id !== "")];
   });
   const sky = computed(() => {

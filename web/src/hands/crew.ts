@@ -1,11 +1,11 @@
 /** What the crew does beside engaging: takes control and gives it back, selects bank, speed and spacing. */
 
-import { effect } from "@preact/signals";
+import { effect, untracked } from "@preact/signals";
 import { tellControl } from "../clearance";
 import { type Actions, isFlying, type Session } from "../session";
 import type { Stream } from "../stream";
 import { formatKnots, formatMiles, inPageUnits } from "../units";
-import type { Command, ControlAnswer, Engagement } from "../wire";
+import type { AssignmentChanged, Command, ControlAnswer, Engagement } from "../wire";
 import { flyByHand } from "./hand-flying";
 
 /** Nobody flies faster than this by hand [s of flight per s]. */
@@ -19,6 +19,13 @@ export interface Crew
   > {
   /** Guidance was brought so far: the controller is told. */
   tellControl(engagement: Engagement): void;
+}
+
+/** What has been selected, until the flight says what it makes of it. */
+interface Selected {
+  /** What it had said before. */
+  readonly before: AssignmentChanged | null;
+  isObeyed(by: AssignmentChanged): boolean;
 }
 
 /** What a crew acts by. */
@@ -38,6 +45,30 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
   let withDirector = true;
   /** What the page has asked for and has not been answered yet. */
   let asked: "take" | "give" | null = null;
+
+  let selected: Selected | null = null;
+
+  /** What is taken now may be refused when its second of flight comes: the last word is the flight's. */
+  async function select(
+    body: Command,
+    text: string,
+    isObeyed: Selected["isObeyed"],
+  ): Promise<void> {
+    selected = null;
+    const { assignment: before } = flight.read.value;
+    await command(body, `${text}…`, `${text}.`);
+    selected = { before, isObeyed };
+    judge();
+  }
+
+  function judge(): void {
+    const { assignment } = flight.read.value;
+    if (flight.source.value.kind !== "live") return; // what is shown was before
+    if (selected === null || assignment === null || assignment === selected.before) return;
+    const isObeyed = selected.isObeyed(assignment);
+    selected = null;
+    untracked(() => say(isObeyed ? "done" : "refused", inPageUnits(assignment.message)));
+  }
 
   function answered({ yours, message }: ControlAnswer, link: Stream): void {
     const wasAsked = asked;
@@ -89,10 +120,14 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
   effect(() => {
     void flight.id.value;
     withDirector = true;
+    selected = null;
   });
+  effect(judge);
   // Control ends with its link, and with its flight.
   effect(() => {
     if (flight.connection.value !== "lost" || hands.peek() === null) return;
+    // data that are old may come by a link that still stands: then the service has to be told
+    if (stream()?.send({ kind: "give_back" }) === true) asked = "give";
     endFlying();
     say("refused", `${LOST} The autopilot flies.`);
   });
@@ -115,12 +150,15 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
     },
     selectBank(bank) {
       const text = `Bank of ${bank}° selected`;
-      void command({ command: "pursuer_bank", bank_deg: bank }, `${text}…`, `${text}.`);
+      const body = { command: "pursuer_bank", bank_deg: bank } as const;
+      void select(body, text, ({ max_bank_deg }) => isNear(max_bank_deg, bank));
     },
     selectSpeed(tas) {
       const text = tas === null ? "Speed by guidance" : `Own speed ${formatKnots(tas)} kt selected`;
       const tas_mps = Number((tas ?? 0).toFixed(3));
-      void command({ command: "pursuer_speed", tas_mps }, `${text}…`, `${text}.`);
+      void select({ command: "pursuer_speed", tas_mps }, text, ({ selected_tas_mps: [now] }) =>
+        tas === null ? now === undefined : isNear(now, tas_mps),
+      );
     },
     setSpacing(spacing) {
       const { slot_distance_m: slot, min_separation_m: min } = spacing;
@@ -129,7 +167,19 @@ export function createCrew({ session, command, say, refusal, stream }: Means): C
         ...(min === undefined ? [] : [`minimum ${formatMiles(min)} NM`]),
       ].join(", ");
       const text = said.charAt(0).toUpperCase() + said.slice(1);
-      void command({ command: "set_spacing", ...spacing }, `${text}…`, `${text}.`);
+      void select({ command: "set_spacing", ...spacing }, text, (now) => {
+        const { slot_distance_m = now.slot_distance_m, min_separation_m = now.min_separation_m } =
+          spacing;
+        return (
+          isNear(now.slot_distance_m, slot_distance_m) &&
+          isNear(now.min_separation_m, min_separation_m)
+        );
+      });
     },
   };
+}
+
+/** Whether a number came back as it was sent: degrees, m/s and metres are rounded by less on the way. */
+function isNear(now: number | undefined, asked: number): boolean {
+  return now !== undefined && Math.abs(now - asked) < 0.01;
 }

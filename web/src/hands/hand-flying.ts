@@ -6,11 +6,11 @@ import type { Session } from "../session";
 import { speedOf } from "../store/flight";
 import { pairSample } from "../store/pair";
 import type { Upstream } from "../wire";
-import { NOT_SECURE, PRESS_A_BUTTON, readController } from "./controller";
+import { createController } from "./controller";
 import { createFrames, SOONEST } from "./frames";
 import { createLatency, type Measure } from "./latency";
 import { nextStep, toward } from "./steps";
-import { type Deflection, keyed, NEUTRAL, together } from "./stick";
+import { type Deflection, isNeutral, keyed, NEUTRAL, together } from "./stick";
 
 /** Which way each key moves the stick: right and pulled are positive. */
 const ROLLS: Readonly<Record<string, number>> = { ArrowLeft: -1, ArrowRight: 1 };
@@ -23,6 +23,9 @@ const SAID_EVERY = 1000;
 const TOO_FEW = 40;
 /** After a longer frame the stick goes on as if it had been so long [ms]. */
 const LONGEST_FRAME = 100;
+/** What is said while keys go elsewhere, and once they come here again. */
+const AWAY = "Stick neutral: this page does not have the keys. Click here to fly on.";
+const BACK = "The stick was neutral while you were away. You have control.";
 
 export interface HandFlying {
   /** Where the stick is by all inputs together. */
@@ -31,6 +34,8 @@ export interface HandFlying {
   readonly wanted: ReadonlySignal<number | null>;
   /** The name of the controller, or what to do to have one. */
   readonly controller: ReadonlySignal<string>;
+  /** Why an input does not fly now, and how it does again; empty once the stick is moved. */
+  readonly notice: ReadonlySignal<string>;
   readonly measure: ReadonlySignal<Measure>;
   /** Whether this machine draws too few frames with the scene beside the stick. */
   readonly isSlow: ReadonlySignal<boolean>;
@@ -49,7 +54,9 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
   const latency = createLatency();
   const stick = signal(NEUTRAL);
   const wanted = signal<number | null>(null);
+  const device = createController();
   const controller = signal("");
+  const notice = signal("");
   const measure = signal(latency.measure());
   const isSlow = signal(false);
   const held = new Set<string>();
@@ -88,6 +95,7 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
   function move(now: number): void {
     const byHand = together([byKeys, byPad, byController]);
     if (byHand.roll !== 0) wanted.value = null;
+    if (!isNeutral(byHand) || wanted.value !== null) notice.value = "";
     const bank = wanted.value === null ? null : bankNow();
     const bySteps =
       wanted.value === null || bank === null
@@ -106,15 +114,26 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
     held.clear();
     byKeys = byPad = byController = NEUTRAL;
     wanted.value = null;
+    notice.value = AWAY;
+    if (!isHere()) device.leave();
     move(performance.now());
     setTimeout(() => move(performance.now()), SOONEST); // a page out of sight has no frames
   }
 
+  function comeBack(): void {
+    if (isHere() && notice.value === AWAY) notice.value = BACK;
+  }
+
   function readControllers(): void {
-    const all = document.hasFocus() ? navigator.getGamepads?.() : [];
-    const found = readController(all ?? []);
-    byController = found?.stick ?? NEUTRAL;
-    controller.value = found?.name ?? (all === undefined ? NOT_SECURE : PRESS_A_BUTTON);
+    if (!isHere()) {
+      device.leave();
+      byController = NEUTRAL;
+      return;
+    }
+    const read = device.read(navigator.getGamepads?.());
+    byController = read.stick;
+    controller.value = read.hint;
+    notice.value = read.notice ?? notice.value;
   }
 
   function frame(now: number): void {
@@ -160,7 +179,8 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
   addEventListener("keydown", onKey, options);
   addEventListener("keyup", ({ key }) => held.delete(key), options);
   addEventListener("blur", letGo, { signal: until });
-  document.addEventListener("visibilitychange", () => document.hidden && letGo(), {
+  addEventListener("focus", comeBack, { signal: until });
+  document.addEventListener("visibilitychange", () => (document.hidden ? letGo() : comeBack()), {
     signal: until,
   });
   requestAnimationFrame(frame);
@@ -175,6 +195,7 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
     stick,
     wanted,
     controller,
+    notice,
     measure,
     isSlow,
     drag(deflection) {
@@ -188,6 +209,11 @@ export function flyByHand(session: Session, send: (frame: Upstream) => void): Ha
       stick.value = NEUTRAL;
     },
   };
+}
+
+/** Whether the page is in sight, and what is pressed comes to it or to the scene in it. */
+function isHere(): boolean {
+  return !document.hidden && document.hasFocus();
 }
 
 /** Whether a key belongs to a field that is typed in, or to a dialog that is open. */

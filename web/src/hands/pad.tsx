@@ -48,6 +48,9 @@ function Stick({ hands, actions }: { hands: HandFlying; actions: Actions }) {
           </button>
         </div>
       </div>
+      <p class="stick-notice" role="alert">
+        {hands.notice.value}
+      </p>
       <Measured measure={hands.measure.value} />
       {hands.isSlow.value && (
         <p class="hint">The scene rests until you give back: drawn with it, the page was slow.</p>

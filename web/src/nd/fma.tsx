@@ -29,8 +29,11 @@ export function ModeStrip({ shown }: LayerProps) {
   const speedColour = usePart(shown, ({ speed }): Colour => {
     return speed.isSelected ? "selected" : "value";
   });
-  const pilot = usePart(shown, (picture) => picture.pilot.now);
-  const pilotNext = usePart(shown, (picture) => picture.pilot.next);
+  // what became of an order stands in the lower row: who flies is in the upper one then
+  const pilot = usePart(shown, ({ order, pilot: { now, next } }) =>
+    order === "" ? now : `${now} ${next}`.trim(),
+  );
+  const pilotNext = usePart(shown, ({ order, pilot }) => (order === "" ? pilot.next : ""));
   const isNewPilot = usePart(shown, (picture) => picture.pilot.boxed);
   const isLost = usePart(shown, (picture) => picture.pilot.isLost);
   const isNewMode = usePart(shown, (picture) => picture.boxed);

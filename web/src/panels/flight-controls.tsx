@@ -13,7 +13,11 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
     scenarios.value.find((scenario) => scenario.name === flown)?.description ?? "";
   return (
     <Panel name="controls" title="Flight">
-      {description !== "" && <p class="hint">{description}</p>}
+      {description !== "" && (
+        <p class="hint description" title={description}>
+          {description}
+        </p>
+      )}
       <div class="row">
         <button
           type="button"

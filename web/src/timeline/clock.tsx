@@ -135,6 +135,7 @@ function Edge({ session, actions }: { session: Session; actions: Actions }) {
 function TimeField({ session, actions }: { session: Session; actions: Actions }) {
   const { read, span } = session.flight;
   const [first, last] = [span.value?.first ?? 0, span.value?.last ?? 0];
+  const end = Math.max(last, read.value.t); // the picture runs ahead of the newest that was heard
   const refusal = session.timeRefusal;
   const typed = useSignal<string | null>(null);
   const take = (field: HTMLInputElement) => {
@@ -173,7 +174,7 @@ function TimeField({ session, actions }: { session: Session; actions: Actions })
           typed.value = null;
         }}
       />
-      <span class="of">of {formatClock(last)}</span>
+      <span class="of">of {formatClock(end)}</span>
       <span id="time-refusal" class="timeline-refusal" role="status">
         {refusal.value}
       </span>

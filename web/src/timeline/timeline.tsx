@@ -58,7 +58,8 @@ function Track({ session, actions, outline }: Props & { outline: Outline }) {
   }, [width]);
   const drag = useDrag(place, session, actions, outline);
   const { moment } = session.flight;
-  const t = Math.min(outline.end, Math.max(outline.first, moment.value.t));
+  const t = Math.max(outline.first, moment.value.t);
+  const last = Math.max(outline.last, t); // the picture runs ahead of the newest that was heard
   return (
     <div
       ref={place}
@@ -67,9 +68,9 @@ function Track({ session, actions, outline }: Props & { outline: Outline }) {
       tabIndex={0}
       aria-label="Flight time shown"
       aria-valuemin={Math.round(outline.first)}
-      aria-valuemax={Math.round(outline.last)}
+      aria-valuemax={Math.round(last)}
       aria-valuenow={Math.round(t)}
-      aria-valuetext={`${formatClock(t)} of ${formatClock(outline.last)}`}
+      aria-valuetext={`${formatClock(t)} of ${formatClock(last)}`}
       {...drag}
     >
       <svg viewBox={`0 0 ${width.value} ${HEIGHT}`} aria-hidden="true">
@@ -85,7 +86,10 @@ function Track({ session, actions, outline }: Props & { outline: Outline }) {
             width={width.value}
           />
         )}
-        <g class="timeline-cursor" transform={`translate(${across(outline, width.value, t)} 0)`}>
+        <g
+          class="timeline-cursor"
+          transform={`translate(${across(outline, width.value, Math.min(outline.end, t))} 0)`}
+        >
           <line y1="0" y2={HEIGHT} />
           <path d="M-5 0h10l-5 7z" />
         </g>

@@ -1,14 +1,15 @@
 import { render } from "preact";
 import { act } from "preact/test-utils";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import { createActions } from "../../src/atc/actions";
+import { type Actions, createActions } from "../../src/atc/actions";
 import { loudOf, SILENCE } from "../../src/atc/alerts";
 import { Announcer, followChanges } from "../../src/atc/announcer";
 import { ANSWERS } from "../../src/atc/answering";
 import { isTaken, keyAct } from "../../src/atc/keys";
 import { Page } from "../../src/atc/page";
 import { sentenceOf } from "../../src/atc/pair-tool";
-import { createStation, pick, type Station } from "../../src/atc/station";
+import { writeRecording } from "../../src/atc/recording";
+import { choose, createStation, openTab, pick, type Station } from "../../src/atc/station";
 import { requestsOf } from "../../src/atc/urgency";
 import { behindText, flightText, timeText } from "../../src/atc/words";
 import type { AtcDocument, ClearanceCard, ClearanceState } from "../../src/wire";
@@ -27,6 +28,7 @@ class FakeSocket {
 
 let place: HTMLElement;
 let station: Station;
+let actions: Actions;
 let number = 0;
 /** What was asked of the service: method, path, body. */
 let asked: [string, string, unknown][] = [];
@@ -52,7 +54,7 @@ beforeEach(() => {
   });
   station = createStation();
   const said = followChanges(station.store);
-  const actions = createActions(station, "ws://here/api/v1/atc/stream", "relguide-atc-1");
+  actions = createActions(station, "ws://here/api/v1/atc/stream", "relguide-atc-1");
   place = document.createElement("div");
   document.body.append(place);
   act(() => {
@@ -241,6 +243,49 @@ describe("a controller with a keyboard", () => {
   });
 });
 
+describe("the demonstration", () => {
+  async function begun(): Promise<void> {
+    const demo = [...place.querySelectorAll("button")].find((b) => b.textContent?.includes("Demo"));
+    await act(async () => demo?.click());
+    await vi.waitFor(() => expect(station.busy.value).toBe(""));
+  }
+  const openTabs = () => text("[role=tab][aria-selected=true]");
+  const TWO = [seen([traffic("DLH1")]), seen([traffic("AFR9")], NOW, "far")];
+
+  it("opens all traffic, where its five flights ask, from whichever tab it was begun", async () => {
+    tell(TWO);
+    act(() => openTab(station, "far"));
+    await begun();
+    expect(asked.map(([, path]) => path)).toEqual(
+      Array(5).fill(["api/v1/flights", "api/v1/clearances"]).flat(),
+    );
+    expect(openTabs()).toBe("Earth");
+    expect(text(".atc-notice")).toBe("");
+  });
+
+  it("leaves a recording open, and says where its flights are", async () => {
+    const written = writeRecording([...TWO, changed(clearance("9", { sky: "far" }))]);
+    await act(() => actions.openFile(new File([written], "morning.jsonl")));
+    act(() => openTab(station, "far"));
+    await begun();
+    expect(station.file.value).toBe("morning.jsonl");
+    expect(openTabs()).toContain("Flight far");
+    expect(text(".atc-notice")).toBe(
+      "Five flights ask. Load this page again to leave the recording and see them.",
+    );
+  });
+
+  it("that cannot begin says why, and changes no tab", async () => {
+    tell(TWO);
+    act(() => openTab(station, "far"));
+    answers = [{ status: 503, body: { detail: "No more flights fit." } }];
+    await begun();
+    expect(openTabs()).toContain("Flight far");
+    expect(text(".atc-notice")).toContain("No more flights fit.");
+    expect(asked).toHaveLength(1);
+  });
+});
+
 describe("the stream", () => {
   it("goes on after the last document it had", () => {
     vi.useFakeTimers();
@@ -345,6 +390,24 @@ describe("the request list", () => {
     tell(states.map((state, k) => changed(clearance(String(k), { state }))));
     const order = requestsOf(station.store.sky.value, true).map(({ state }) => state);
     expect(order).toEqual(["deviated", "standby", "accepted", "flying", "flown"]);
+  });
+
+  it("keeps what is over for a minute, and with a tick for good", () => {
+    const [left] = [clearance("1", { history: [] })];
+    tell([seen([]), changed(left)]);
+    tell([{ kind: "expired", t_s: NOW + 300, id: "1", message: "Nobody answered in time." }]);
+    expect(rows()[0]).toContain("EXPIRED");
+    tell([seen([], NOW + 359)]);
+    expect(rows()).toHaveLength(1);
+    tell([seen([], NOW + 361)]);
+    expect(rows()).toHaveLength(0);
+    expect(text(".atc-requests .hint")).toBe(
+      "Nothing is asked for now. 1 ended: tick “show ended” to see it.",
+    );
+    act(() => place.querySelector<HTMLInputElement>(".atc-requests input")?.click());
+    expect(rows()[0]).toContain("EXPIRED");
+    act(() => choose(station, "1"));
+    expect(text(".atc-strip .history")).toContain("Nobody answered in time.");
   });
 
   it("offers nothing for what is over", () => {

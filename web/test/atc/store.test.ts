@@ -1,4 +1,4 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, test } from "vitest";
 import { append, documentsOf, type Histories, MOST, newest, skyAt } from "../../src/atc/history";
 import { readRecording, writeRecording } from "../../src/atc/recording";
 import { emptySky, fold } from "../../src/atc/sky";
@@ -56,6 +56,33 @@ describe("the fold", () => {
     expect(flight?.title).toBe("Flight abc");
   });
 
+  it("names a sky that nobody has named by who follows whom in it", () => {
+    const unnamed = emptySky("f3a9");
+    expect(unnamed.title).toBe("A flight");
+    const asks = fold(unnamed, changed(clearance("9", { sky: "f3a9" })));
+    expect(asks.title).toBe("DLH9 behind AFR9");
+    const other = fold(asks, changed(clearance("8", { sky: "f3a9" })));
+    expect(other.title).toBe("DLH9 behind AFR9");
+    expect(fold(other, seen([], NOW, "f3a9")).title).toBe("Flight f3a9"); // as the service calls it
+    expect(emptySky("").title).toBe("All traffic");
+  });
+
+  it("keeps when and why a request expired, once", () => {
+    const expired = {
+      kind: "expired",
+      t_s: NOW + 60,
+      id: "1",
+      message: "Nobody answered.",
+    } as const;
+    const sky = fold(fold(emptySky(""), changed(clearance("1"))), expired);
+    expect(sky.clearances.get("1")?.history.at(-1)).toMatchObject({
+      state: "expired",
+      t_s: NOW + 60,
+      message: "Nobody answered.",
+    });
+    expect(fold(sky, expired).clearances.get("1")?.history).toHaveLength(2);
+  });
+
   it("leaves what it was given as it was", () => {
     const before = fold(emptySky(""), changed(clearance("1")));
     fold(before, changed(clearance("1", { state: "accepted" })));
@@ -85,6 +112,15 @@ describe("the history", () => {
     const again = told(documentsOf(history)).get("") ?? raise("");
     expect(newest(again)).toEqual(newest(history));
   });
+});
+
+test("a flight that has ended, and of which only an ended request is told, has no tab", () => {
+  const store = createAtcStore();
+  const ended = clearance("9", { sky: "gone", state: "terminated" });
+  store.receive([seen([]), changed(ended), changed(clearance("8", { sky: "new" }))]);
+  expect(store.skies.value.map(({ id }) => id)).toEqual(["", "new"]);
+  store.receive([seen([traffic("DLH9")], 5, "gone")]);
+  expect(store.skies.value.map(({ id }) => id)).toEqual(["", "gone", "new"]);
 });
 
 describe("a recording", () => {

@@ -8,7 +8,7 @@ import { createFlightStore } from "../../src/store/flight";
 import { pairCard } from "../../src/store/pair";
 import type { Stream } from "../../src/stream";
 import type { ControlAnswer, StickMove, Upstream } from "../../src/wire";
-import { amend, pairAt, STARTED, sample, tick } from "../samples";
+import { amend, OWN, pairAt, STARTED, sample, tick } from "../samples";
 import { silentActions } from "../silence";
 
 /** A frame of the page [ms]. */
@@ -174,6 +174,51 @@ describe("control", () => {
   });
 });
 
+describe("what the crew selects", () => {
+  const ASSIGNED = {
+    kind: "assignment_changed",
+    t_s: 2,
+    ident: OWN,
+    slot_distance_m: 10_000,
+    min_separation_m: 9260,
+    max_bank_deg: 25,
+    selected_tas_mps: [] as number[],
+    message: "",
+  } as const;
+
+  test.each([
+    ["speed", (crew: Crew) => crew.selectSpeed(130), {}, "250 kt is refused, it stays as it is."],
+    ["bank", (crew: Crew) => crew.selectBank(50), {}, "50° of bank is refused."],
+    ["D", (crew: Crew) => crew.setSpacing({ slot_distance_m: 50 }), {}, "Refused: D stays 5.4 NM."],
+  ])("and the flight refuses is said to be refused: %s", async (_, select, change, message) => {
+    const page = opened();
+    select(page.crew);
+    await vi.advanceTimersByTimeAsync(0);
+    expect(page.session.feedback.value.kind).toBe("none");
+    amend(page.session.flight, { assignment: { ...ASSIGNED, ...change, message } });
+    expect(page.session.feedback.value).toEqual({ kind: "refused", text: message });
+  });
+
+  test.each([
+    ["speed", (crew: Crew) => crew.selectSpeed(130), { selected_tas_mps: [130] }],
+    ["no speed", (crew: Crew) => crew.selectSpeed(null), {}],
+    ["bank", (crew: Crew) => crew.selectBank(20), { max_bank_deg: 20 }],
+    [
+      "D",
+      (crew: Crew) => crew.setSpacing({ slot_distance_m: 12_000 }),
+      { slot_distance_m: 12_000 },
+    ],
+  ])("and the flight obeys is said in its words: %s", async (_, select, change) => {
+    const page = opened();
+    select(page.crew);
+    await vi.advanceTimersByTimeAsync(0);
+    amend(page.session.flight, { assignment: { ...ASSIGNED, ...change, message: "Now so." } });
+    expect(page.session.feedback.value).toEqual({ kind: "done", text: "Now so." });
+    amend(page.session.flight, { assignment: { ...ASSIGNED, message: "Another page's." } });
+    expect(page.session.feedback.value).toEqual({ kind: "done", text: "Now so." });
+  });
+});
+
 describe("keys", () => {
   test("move a stick that springs back, and are not the clock's", async () => {
     const page = await flying();
@@ -306,6 +351,124 @@ describe("neutral", () => {
     page.session.flight.source.value = { kind: "replay", rate: 1 };
     vi.advanceTimersByTime(100);
     expect(page.rolls().at(-1)).toBe(0);
+  });
+});
+
+describe("who cannot fly for a while is told, and told again how to go on", () => {
+  interface Pad {
+    id: string;
+    axes: number[];
+    connected: boolean;
+  }
+
+  /** A controller that can be unplugged, and a page that can be left. */
+  function outside() {
+    const pads: (Pad | null)[] = [{ id: "Pad (Vendor: 0)", axes: [0, 0], connected: true }];
+    vi.stubGlobal("navigator", { getGamepads: () => pads });
+    const hasFocus = vi.spyOn(document, "hasFocus").mockReturnValue(true);
+    const hidden = vi.spyOn(document, "hidden", "get").mockReturnValue(false);
+    const look = (away: boolean) => {
+      hidden.mockReturnValue(away);
+      hasFocus.mockReturnValue(!away);
+      document.dispatchEvent(new Event("visibilitychange"));
+      dispatchEvent(new Event(away ? "blur" : "focus"));
+    };
+    return { pads, look, hasFocus };
+  }
+
+  afterEach(() => vi.restoreAllMocks());
+
+  test("an unplugged controller: neutral within a frame; back, it flies once it was let go", async () => {
+    const page = await flying();
+    const { pads } = outside();
+    const place = document.body.appendChild(document.createElement("div"));
+    await act(() => render(<StickPad session={page.session} actions={silentActions()} />, place));
+    const told = () => place.querySelector("[role=alert]")?.textContent;
+    const wait = (ms: number) => act(() => void vi.advanceTimersByTime(ms));
+    await wait(100);
+    expect(told()).toBe("");
+    pads[0] = { id: "Pad (Vendor: 0)", axes: [0.9, 0], connected: true };
+    await wait(100);
+    expect(page.rolls().at(-1)).toBeGreaterThan(0.8);
+    pads[0] = null;
+    await wait(50);
+    expect(page.rolls()).toEqual([0]);
+    expect(told()).toBe("Pad is gone: stick neutral. You have control, by keys and by this panel.");
+    expect(page.session.hands.value).not.toBeNull();
+    pads[0] = { id: "Pad (Vendor: 0)", axes: [0.9, 0], connected: true };
+    await wait(500);
+    expect(page.rolls()).toEqual([]);
+    expect(told()).toBe("Pad is back: let go of its stick once, then it flies.");
+    pads[0] = { id: "Pad (Vendor: 0)", axes: [0.02, 0], connected: true };
+    await wait(100);
+    expect(told()).toBe("Pad flies again.");
+    pads[0] = { id: "Pad (Vendor: 0)", axes: [-1, 0], connected: true };
+    await wait(100);
+    expect(page.rolls().at(-1)).toBe(-1);
+    expect(told()).toBe("");
+    await act(() => render(null, place));
+    place.remove();
+  });
+
+  test("a page out of sight: neutral at once; in sight again, what is still held waits", async () => {
+    const page = await flying();
+    const { pads, look } = outside();
+    pads[0] = { id: "Pad", axes: [0.9, 0], connected: true };
+    vi.advanceTimersByTime(100);
+    expect(page.rolls().at(-1)).toBeGreaterThan(0.8);
+    const { hands } = page.session;
+    look(true);
+    vi.advanceTimersByTime(60);
+    expect(page.rolls()).toEqual([0]);
+    expect(hands.value?.notice.value).toBe(
+      "Stick neutral: this page does not have the keys. Click here to fly on.",
+    );
+    vi.advanceTimersByTime(3000);
+    expect(page.rolls()).toEqual([]);
+    expect(hands.value?.controller.value).toBe("Pad");
+    look(false);
+    vi.advanceTimersByTime(100);
+    expect(page.rolls()).toEqual([]);
+    expect(hands.value?.notice.value).toBe("Pad is back: let go of its stick once, then it flies.");
+    pads[0] = { id: "Pad", axes: [0, 0], connected: true };
+    vi.advanceTimersByTime(100);
+    pads[0] = { id: "Pad", axes: [0.9, 0], connected: true };
+    vi.advanceTimersByTime(100);
+    expect(page.rolls().at(-1)).toBeGreaterThan(0.8);
+    look(true); // a page out of sight is given no frames
+    look(false);
+    vi.advanceTimersByTime(100);
+    expect(page.rolls()).toEqual([0]);
+    expect(hands.value?.notice.value).toContain("let go of its stick once");
+  });
+
+  test("without a controller: the stick was neutral meanwhile, and the next key clears the words", async () => {
+    const page = await flying();
+    const { pads, look } = outside();
+    pads[0] = null;
+    press("ArrowLeft");
+    vi.advanceTimersByTime(300);
+    look(true);
+    vi.advanceTimersByTime(5000);
+    look(false);
+    const { hands } = page.session;
+    vi.advanceTimersByTime(100);
+    expect(hands.value?.notice.value).toBe(
+      "The stick was neutral while you were away. You have control.",
+    );
+    page.rolls();
+    press("ArrowRight");
+    expect(page.rolls()).toEqual([0.2]);
+    expect(hands.value?.notice.value).toBe("");
+  });
+
+  test("data too old to fly by: control is given back, so that what is said is so", async () => {
+    const page = await flying();
+    page.session.flight.connection.value = "lost";
+    expect(page.sent.at(-1)).toEqual({ kind: "give_back" });
+    expect(page.session.hands.value).toBeNull();
+    page.answer(false, "The autopilot flies.");
+    expect(page.session.feedback.value).toEqual({ kind: "done", text: "The autopilot flies." });
   });
 });
 

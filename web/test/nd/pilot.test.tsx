@@ -64,9 +64,38 @@ describe.each(GUIDANCES.map((state) => [state] as const))("%s", (state: Guidance
   test.each(SWITCHES)("autopilot $autopilot, director $director", (switches) => {
     const flight = flightIn(state);
     change(flight, switches);
-    expect(pilotCells(draw(flight))).toEqual(column(switches.autopilot, switches.director));
+    const root = draw(flight);
+    const words = column(switches.autopilot, switches.director);
+    // ACCEPTED stands in the lower row
+    const isTold = root.querySelector(".nd-atc")?.textContent !== "";
+    expect(pilotCells(root)).toEqual(isTold ? [words.join(" ").trim()] : words);
+    expect(isTold).toBe(state === "armed");
   });
 });
+
+test.each(SWITCHES)(
+  "what the controller answers takes nobody's place: autopilot $autopilot, director $director",
+  (switches) => {
+    const flight = flightIn("converge");
+    change(flight, switches);
+    const clearance = {
+      kind: "clearance_news",
+      t_s: flight.moment.value.t,
+      ident: OWN,
+      clearance_id: "c1",
+      clearance: "flying",
+      level: "none",
+      message: "Cleared.",
+      automated: false,
+    } as const;
+    amend(flight, { clearance });
+    const root = draw(flight);
+    expect(pilotCells(root)).toEqual([
+      column(switches.autopilot, switches.director).join(" ").trim(),
+    ]);
+    expect(root.querySelector(".nd-atc")?.textContent).toBe("CLEARED");
+  },
+);
 
 test("a flight of before has its autopilot, and no director", () => {
   expect(pilotCells(draw(flightIn("converge")))).toEqual(["AP1"]);

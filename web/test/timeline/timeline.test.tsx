@@ -68,6 +68,18 @@ describe("the timeline", () => {
     expect(session.flight.source.value.kind).toBe("live");
   });
 
+  test("shows no later time than the end it names, though the picture runs ahead of the newest", () => {
+    const { store } = watched();
+    act(() => store.receive({ ...tick(60, [sample(60)]), rate: 60 }, 60_000));
+    act(() => store.advance(60_900));
+    const shown = readClockText(place.querySelector("input")?.value ?? "");
+    expect(shown).toBe(60 + 54);
+    expect(place.querySelector(".of")?.textContent).toBe("of 01:54");
+    const slider = place.querySelector("[role=slider]");
+    expect(slider?.getAttribute("aria-valuetext")).toBe("01:54 of 01:54");
+    expect(slider?.getAttribute("aria-valuemax")).toBe("114");
+  });
+
   test("behind the flight nothing is commanded, and play is the page's own", () => {
     const { session, actions } = watched();
     act(() => actions.seek(20));
