@@ -1,4 +1,4 @@
-"""The paper's network: it learns the tree, and what it gives is near a way to the slot, no more."""
+"""The paper's network: it learns the tree, and what it gives ends kilometres from the slot."""
 
 from dataclasses import replace
 from functools import cache
@@ -58,8 +58,8 @@ def test_a_tree_too_small_is_refused() -> None:
         next(train_regular(alone, OPTIONS, method="paper", about={}))
 
 
-def test_what_it_gives_flies_nearly_to_the_slot() -> None:
-    """Nothing holds the end in the slot: the nearest it comes is some hundred metres."""
+def test_half_of_what_it_gives_ends_within_a_turn_radius_of_the_slot() -> None:
+    """Nothing holds the end in the slot: this network misses it by 8 km in the median."""
     rng = np.random.default_rng(3)
     nodes = rng.permutation(tree().minima)[:200]
     x, y, h = tree().x[nodes] / RADIUS, tree().y[nodes] / RADIUS, tree().heading[nodes]
@@ -72,7 +72,7 @@ def test_what_it_gives_flies_nearly_to_the_slot() -> None:
         end = flown.pose_at(flown.duration)
         slot = situation.leader.tas * flown.duration - situation.slot_distance
         missed.append(hypot(end.x - slot, end.y))
-    assert 100.0 < np.median(missed) < 2.0 * RADIUS
+    assert 100.0 < np.median(missed) < RADIUS
 
 
 def test_mirrored_situations_get_mirrored_paths() -> None:
