@@ -324,7 +324,7 @@ export interface Alert {
   message: string;
   /** Least separation from the other ahead, flying on as now [m]. */
   predicted_least_m: number;
-  /** Flight time of it [s]. */
+  /** Flight time at which the minimum is lost or, where it is kept, the least comes [s]. */
   predicted_at_s: number;
   /** Whether the alert ends: nothing stands on this subject any more. */
   cleared: boolean;
