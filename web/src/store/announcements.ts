@@ -115,7 +115,7 @@ function assertiveOf(flight: Moment): string {
     sentences.push(`Separation from ${whose}: closer than its minimum.${causeOf(flight)}`);
   else if (isLost) sentences.push(`Separation: closer than ${minimum}.${causeOf(flight)}`);
   for (const alert of flight.alerts)
-    if (alert.level !== "advisory" && !(isLost && isOfLoss(alert)))
+    if (alert.level !== "advisory" && !(isLost && isOfLoss(alert)) && !isSaid(alert, state))
       sentences.push(alertSentence(flight, alert));
   if (clearanceSentence(flight, true) !== "") sentences.push(clearanceSentence(flight, true));
   const seconds = leaderAge(flight);
@@ -133,6 +133,11 @@ function assertiveOf(flight: Moment): string {
   if (why !== undefined && state !== "off" && state !== "data_lost")
     sentences.push(`Unable: ${startLower(inPageUnits(why))}`);
   return sentences.join(" ");
+}
+
+/** Whether the state says it already. */
+function isSaid({ subject }: Alert, state: Guidance): boolean {
+  return subject === "data" && state === "data_lost";
 }
 
 /** Whether an alert says of a loss what is said already. */

@@ -63,7 +63,7 @@ const ALERTED: Record<AlertSubject, string> = {
   separation: "SEP",
   spacing: "SPACING NOT KEPT",
   speed: "LDR SPEED",
-  data: "LDR DATA",
+  data: "LDR DATA LOST",
   geometry: "LDR PATH",
 };
 
@@ -124,7 +124,8 @@ export function noticesOf(flight: Moment): readonly Notice[] {
     notices.push({ level: "caution", text: `LDR DATA ${Math.floor(seconds)} S` });
   if (!seen.guidance || flight.now === null) return notices;
   for (const alert of flight.alerts)
-    notices.push({ level: ALERT_NOTICE[alert.level], text: alertText(flight, alert) });
+    if (alert.subject !== "data" || state !== "data_lost")
+      notices.push({ level: ALERT_NOTICE[alert.level], text: alertText(flight, alert) });
   const { clearance } = flight;
   if (clearance !== null && (clearance.level === "caution" || clearance.level === "warning"))
     notices.push({ level: clearance.level, text: `ATC ${clearance.clearance.toUpperCase()}` });

@@ -2,6 +2,7 @@
 
 import { describe, expect, test } from "vitest";
 import { type Announcements, announcementsOf } from "../../src/store/announcements";
+import { noticesOf } from "../../src/store/notices";
 import type { PairSample } from "../../src/store/pair";
 import { GUIDANCES, type Guidance } from "../../src/store/states";
 import type { Flight, Message } from "../../src/store/types";
@@ -107,6 +108,19 @@ test("old data of the leader are a caution that is spoken when it begins, not ea
     new Set(["Leader data old: nothing heard for more than 5 seconds."]),
   );
   expect(at(0).assertive).toBe("");
+});
+
+test("that nothing is heard of the leader is said once: by the state or, at off, by the alert", () => {
+  const message = "Nothing was heard of the leader for 11 s: the separation is not known.";
+  const of = (state: Guidance) => {
+    const flight = speakingIn(state);
+    amend(flight, { alerts: [alert(T, { subject: "data", message })] });
+    const shown = noticesOf(flight.moment.value).filter(({ text }) => text === "LDR DATA LOST");
+    expect(shown).toEqual([{ level: "caution", text: "LDR DATA LOST" }]);
+    return spoken(flight).assertive;
+  };
+  expect(of("data_lost")).toBe(TABLE.data_lost.assertive);
+  expect(of("off")).toBe(message);
 });
 
 test("a replan that is announced is spoken, in the words of the log", () => {
