@@ -97,7 +97,8 @@ def test_a_client_that_left_is_one_line(lines: StringIO) -> None:
     found = [json.loads(line) for line in lines.getvalue().splitlines()]
     said = [line for line in found if line["level"] != "debug"]
     assert [line["message"] for line in said] == [
-        "A client left before POST /api/v1/plans was answered."
+        "A client left before POST /api/v1/plans was answered.",
+        "The service is stopping.",
     ]
     assert said[0]["request_id"] == "left"
 
