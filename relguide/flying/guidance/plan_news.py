@@ -38,7 +38,7 @@ UNABLE: dict[Reason, UnableReason] = {
 FRESH: tuple[PlanReason, ...] = (
     "engaged", "resumed", "separation", "better_plan", "assignment_changed",
 )  # fmt: skip
-"""A plan made for one of these is news, wherever it leads."""
+"""A plan made for one of these is news, wherever it leads; for separation, not twice at once."""
 SHARES = (0.33, 0.67, 1.0)
 """Where along their durations two paths are compared."""
 
@@ -118,7 +118,8 @@ def is_news(
 ) -> bool:
     """Whether the path or its time is not what a crew was shown."""
     settings, last = assignment.settings, memory.announced
-    if last is None or reason in FRESH:
+    once_more = last is not None and reason == "separation" and belief.t < last.quiet_until
+    if last is None or (reason in FRESH and not once_more):
         return True
     if memory.pending is not None:
         return True

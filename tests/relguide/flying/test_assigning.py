@@ -146,6 +146,19 @@ def test_a_speed_that_closes_on_the_leader_never_costs_the_separation() -> None:
     assert flight.of(ModeChanged)[-1].mode != "follow"
 
 
+def test_a_plan_that_is_made_anew_each_second_for_separation_is_said_once() -> None:
+    """At 240 m/s it comes to the slot too fast: from 163 s on each plan lasts a second."""
+    fast = PursuerSpeed(tas=240.0)
+    flight = fly_whole(replace(scenario("lesson_turn"), duration_limit=180.0), (20.0, fast))
+    for_separation = [p for p in flight.of(PlanChanged) if p.reason == "separation"]
+    assert len(for_separation) == 10
+    assert [(p.plan.word, p.announced) for p in for_separation[:8]] == [
+        ("LSL", k == 0) for k in range(8)
+    ]
+    assert for_separation[-1].announced
+    assert for_separation[-1].plan.word == "RLR"
+
+
 def test_losses_are_counted_by_the_new_d_min() -> None:
     wide = SetSpacing(slot_distance=60.0 * NM, min_separation=60.0 * NM)
     flight = _flown(20.0, (10.0, wide), engagement="off")
