@@ -51,7 +51,13 @@ def order_engagement(memory: Memory, belief: Belief, to: Engagement) -> tuple[Me
     proposed = memory.proposed if to == "armed" else None
     asked = memory.asked if to == "armed" else LONG_AGO
     memory = memory._replace(
-        engagement=to, proposed=proposed, accepted=proposed, reoffered="", asked=asked, missing=None
+        engagement=to,
+        engaging=False,
+        proposed=proposed,
+        accepted=proposed,
+        reoffered="",
+        asked=asked,
+        missing=None,
     )
     return memory, [said]
 
@@ -131,7 +137,8 @@ def stand_by(
 
     The order to engage is answered at once: what was accepted is flown, and nothing else.
     """
-    engaging, memory = memory.engaging, memory._replace(engaging=False)
+    engaging = memory.engaging and memory.engagement == "armed"  # and not called off since
+    memory = memory._replace(engaging=False)
     if memory.engagement == "off" or belief.leader_age > assignment.settings.proposes_on_data_of:
         said = list[Event]()
         if engaging:

@@ -206,6 +206,27 @@ def test_a_proposal_is_made_anew_and_one_that_was_accepted_is_to_be_accepted_aga
     assert flown.reason == "engaged"
 
 
+@pytest.mark.parametrize(
+    "at_once",
+    [SetSpacing(slot_distance=9.0 * NM), SetEngagement(engagement="designated")],
+    ids=["another D", "called off"],
+)
+def test_what_is_called_off_in_the_second_in_which_it_is_engaged_is_not_flown(
+    at_once: Command,
+) -> None:
+    flight = _flown(
+        20.0,
+        (2.0, SetEngagement(engagement="designated")),
+        (6.0, SetEngagement(engagement="armed")),
+        (9.0, SetEngagement(engagement="engaged")),
+        (9.0, at_once),
+        engagement="off",
+    )
+    said = [(each.t, each.engagement) for each in flight.of(EngagementChanged)]
+    assert said == [(2.0, "designated"), (6.0, "armed"), (9.0, "designated")]
+    assert not flight.of(PlanChanged)
+
+
 def test_in_a_queue_a_slot_that_another_is_to_take_is_refused() -> None:
     queue = scenario("stream_of_five")
     documents = []
