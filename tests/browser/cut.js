@@ -17,7 +17,8 @@
         && style.textOverflow !== "ellipsis" && element.clientWidth > 0)
       found.push(`${name.slice(0, 60)} is ${element.scrollWidth - element.clientWidth} px too wide`);
     if (element.scrollHeight > element.clientHeight + 1 && style.overflowY === "hidden"
-        && style.webkitLineClamp === "none" && element.clientHeight > 0)
+        && !(style.webkitLineClamp !== "none" && element.title === element.textContent)
+        && element.clientHeight > 0)
       found.push(`${name.slice(0, 60)} loses ${element.scrollHeight - element.clientHeight} px below`);
   }
   return found;

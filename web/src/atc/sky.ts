@@ -21,7 +21,7 @@ export interface Sky {
   readonly clearances: ReadonlyMap<string, ClearanceCard>;
 }
 
-/** The sky of a flight of which no more is known than that it flies. */
+/** The title of a flight's sky before its aircraft are known. */
 const UNNAMED = "A flight";
 
 export function emptySky(id: string): Sky {

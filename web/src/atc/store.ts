@@ -48,7 +48,7 @@ const UNKNOWN = "The service does not know this clearance any more.";
 /** A sky that was not heard of for so long, while others were, is gone [ms]. */
 const GONE = 60_000;
 
-/** Of a flight that has ended, what is told last are its requests, which are over as well. */
+/** Whether a flight has ended: the service then tells only its requests, all of which are over. */
 function isEmpty({ id, aircraft, clearances }: Sky): boolean {
   if (id === "" || aircraft.length > 0 || clearances.size === 0) return false;
   return [...clearances.values()].every(isOver);

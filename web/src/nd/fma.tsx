@@ -29,7 +29,7 @@ export function ModeStrip({ shown }: LayerProps) {
   const speedColour = usePart(shown, ({ speed }): Colour => {
     return speed.isSelected ? "selected" : "value";
   });
-  // what became of an order stands in the lower row: who flies is in the upper one then
+  // the lower row shows what became of an order: the upper one then shows who flies
   const pilot = usePart(shown, ({ order, pilot: { now, next } }) =>
     order === "" ? now : `${now} ${next}`.trim(),
   );

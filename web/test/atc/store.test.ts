@@ -56,7 +56,7 @@ describe("the fold", () => {
     expect(flight?.title).toBe("Flight abc");
   });
 
-  it("names a sky that nobody has named by who follows whom in it", () => {
+  it("names a sky without a title by its two aircraft", () => {
     const unnamed = emptySky("f3a9");
     expect(unnamed.title).toBe("A flight");
     const asks = fold(unnamed, changed(clearance("9", { sky: "f3a9" })));
@@ -114,7 +114,7 @@ describe("the history", () => {
   });
 });
 
-test("a flight that has ended, and of which only an ended request is told, has no tab", () => {
+test("an ended flight that has only ended requests has no tab", () => {
   const store = createAtcStore();
   const ended = clearance("9", { sky: "gone", state: "terminated" });
   store.receive([seen([]), changed(ended), changed(clearance("8", { sky: "new" }))]);

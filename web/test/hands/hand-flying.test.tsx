@@ -354,7 +354,7 @@ describe("neutral", () => {
   });
 });
 
-describe("who cannot fly for a while is told, and told again how to go on", () => {
+describe("the page tells a pilot why the stick is neutral, and how to go on", () => {
   interface Pad {
     id: string;
     axes: number[];

@@ -74,7 +74,7 @@ describe.each(GUIDANCES.map((state) => [state] as const))("%s", (state: Guidance
 });
 
 test.each(SWITCHES)(
-  "what the controller answers takes nobody's place: autopilot $autopilot, director $director",
+  "the controller's answer does not hide who flies: autopilot $autopilot, director $director",
   (switches) => {
     const flight = flightIn("converge");
     change(flight, switches);
